@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 use gpt::bench::scenes;
 use gpt::binary_tree::parts::KeptTrees;
 use gpt::choice::Choice;
+use gpt::cpu::ReferenceRenderer;
 use gpt::load;
 use gpt::packed::{PackedScene, hierarchy::Traversal, tree, world};
-use gpt::reference::ReferenceRenderer;
 use gpt::sampling::{Dimension, PathSampler, Sampling, SequencePoint, VertexDimension};
 use gpt::scene::{RenderSettings, SamplerKind};
 

@@ -7,10 +7,10 @@
 use std::path::Path;
 use std::time::Instant;
 
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderReport, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 

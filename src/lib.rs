@@ -74,6 +74,8 @@ mod black_body;
 pub mod choice;
 #[doc(hidden)]
 pub mod compare;
+#[doc(hidden)]
+pub mod cpu;
 #[cfg(feature = "denoise")]
 #[doc(hidden)]
 pub mod denoise;
@@ -86,6 +88,8 @@ pub mod film;
 #[doc(hidden)]
 pub mod gpu;
 mod input;
+#[doc(hidden)]
+pub mod learn;
 #[doc(hidden)]
 pub mod load;
 #[doc(hidden)]

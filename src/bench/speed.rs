@@ -8,11 +8,11 @@ use super::growth::Growth;
 use super::interval::{Ratio, Spread};
 use super::scenes;
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
+use crate::cpu::ReferenceRenderer;
 use crate::gpu::GpuRenderer;
 use crate::load::SceneError;
 use crate::packed::hierarchy::Traversal;
 use crate::plan::{PlanOptions, StageMode, memory};
-use crate::reference::ReferenceRenderer;
 use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;
 

@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 
 use crate::compare::SizeMismatch;
+use crate::cpu::ReferenceRenderer;
 use crate::denoise::library::OidnError;
 use crate::film::KernelLayer;
 use crate::gpu::{Device, GpuRenderer};
 use crate::load::SceneError;
 use crate::output::{Image, OutputError, ReadError};
 use crate::plan::PlanOptions;
-use crate::reference::ReferenceRenderer;
 use crate::reference::layer::layer_scene;
 use crate::renderer::{Batch, DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;

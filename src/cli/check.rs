@@ -1,12 +1,12 @@
 //! `gpt check`.
 
 use gpt::binary_tree::parts::KeptTrees;
-use gpt::gpu::{prepare, select_adapter};
+use gpt::gpu::{Fitting, select_adapter};
+use gpt::learn::Settled;
 use gpt::load::{self, SceneError, printable};
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanError, PlanOptions};
 use gpt::reference::Integrator;
-use gpt::reference::pilot::Settled;
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::{Guiding, ImportReport, LightChoice, ReportItem, Scene, SceneSummary};
 use gpt::verify;
@@ -50,7 +50,7 @@ struct Report<'a> {
     cpu_seconds: f64,
     /// It takes longer: paths meet so much that they were given up.
     cpu_seconds_is_least: bool,
-    /// Why no pilot chose what the settings leave open, where paths take too much work for one.
+    /// Why no trial run chose what the settings leave open, where paths take too much work for one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pilot_left_out: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -149,13 +149,13 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     };
     let least = if time.is_least { "more than " } else { "" };
     let time = format!("{least}{}", in_words(time.seconds));
-    let pilot = settled
+    let trial_run = settled
         .because
         .left_out
         .as_ref()
-        .map_or_else(String::new, |why| format!("pilot      left out, so that settings are the usual ones: {why}\n"));
+        .map_or_else(String::new, |why| format!("trial run  left out, so that settings are the usual ones: {why}\n"));
     let answer = format!(
-        "valid{warnings}\n{summary}memory     {} on {device}\nhost       {host}, by estimate\ntime       {time} on the CPU, by a few samples; a graphics card takes a fraction\n{pilot}",
+        "valid{warnings}\n{summary}memory     {} on {device}\nhost       {host}, by estimate\ntime       {time} on the CPU, by a few samples; a graphics card takes a fraction\n{trial_run}",
         plan.memory
     );
     terminal::answer(&answer)?;
@@ -219,12 +219,15 @@ fn usual_device(options: &PlanOptions) -> Result<(String, DeviceLimits), Failure
 }
 
 /// What a render would plan, and the scene with complete settings.
-fn usual_plan<'a>(scene: &'a Scene, limits: &DeviceLimits, options: &PlanOptions) -> Result<(Plan, Settled<'a>), Failure> {
-    let traversal = options.packed_traversal(scene, Some(limits));
-    let (settled, packed) = prepare(scene, traversal, &mut KeptTrees::default())?;
-    match (Plan::new(&settled.scene, &packed, limits, options), options.by_nodes_instead_of(traversal)) {
-        (Err(PlanError::DoesNotFit(_)), Some(by_nodes)) => usual_plan(scene, limits, &by_nodes),
-        (plan, _) => Ok((plan.map_err(RenderError::from)?, settled)),
+fn usual_plan<'a>(scene: &'a Scene, limits: &DeviceLimits, options: &'a PlanOptions) -> Result<(Plan, Settled<'a>), Failure> {
+    let mut trees = KeptTrees::default();
+    let mut fitting = Fitting::new(scene, Some(limits), options, &mut trees)?;
+    loop {
+        let Fitting { settled, packed, options, .. } = &fitting;
+        match Plan::new(&settled.scene, packed, limits, options) {
+            Err(PlanError::DoesNotFit(_)) if fitting.gives_something_up(&mut trees)? => {}
+            plan => return Ok((plan.map_err(RenderError::from)?, fitting.settled)),
+        }
     }
 }
 

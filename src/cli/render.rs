@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gpt::denoise::library::Library;
+use gpt::learn::trial;
 use gpt::load::{self, LoadOptions, SceneSource};
 use gpt::output::{PartSpec, PictureFormat, PictureSpec, Provenance, check_is_no_input, check_target};
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
-use gpt::reference::pilot::settle;
 use gpt::render::progressive::STREAMS;
 use gpt::render::stats::Stats;
 use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
@@ -130,7 +130,7 @@ fn scene(
     checkpoint::check(&arguments.checkpoint, &outputs)?;
     let times = frames.times(&scene.animation)?;
     // All frames draw from lights in the same way, whichever of them are rendered.
-    let scene = if times == [FrameTime::Rest] { scene } else { settle(&scene)?.scene.into_owned() };
+    let scene = if times == [FrameTime::Rest] { scene } else { trial::choose(&scene)?.scene.into_owned() };
     if times == [FrameTime::Rest] && !arguments.quiet {
         tell_of_keyframes(&scene);
     }

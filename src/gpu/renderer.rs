@@ -10,55 +10,24 @@ use super::band::{BandProgress, Sweeps};
 use super::buffers::STATISTICS_BYTES;
 use super::device::{Device, OpeningDevice};
 use super::film::{self, Reached, deliver_band};
+use super::fitting::Fitting;
 use super::passes::{PassLimits, PassSizer};
 use super::pipeline::Pipeline;
 use super::profile::{self, Profile};
 use super::trace::{self, GpuPathTrace};
 use crate::binary_tree::parts::KeptTrees;
 use crate::film::Band;
+use crate::packed::PackedScene;
 use crate::packed::environment::PackedEnvironment;
-use crate::packed::hierarchy::Traversal;
 use crate::packed::view::View;
-use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
 use crate::plan::counters::{CLAMPED_COUNTER, CLAMPED_UNITS_COUNTER, COUNTER_WORDS, RAYS_COUNTER, REFUSED_COUNTER};
 use crate::plan::{Plan, PlanOptions, StageMode};
-use crate::reference::pilot::{self, Settled};
-use crate::reference::training;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
 use crate::sampling::Sampling;
-use crate::sampling::light_way::MANY_LIGHTS;
-use crate::scene::{LightChoice, MaterialId, RenderSettings, Scene};
-
-/// Packs a scene with all that the CPU finds out before the first sample: how lights are drawn from and where roulette begins, where the settings leave that open, and the guide,
-/// where they want one. `kept`: the trees of an earlier frame. The scene comes back with complete settings.
-///
-/// # Errors
-/// A scene that is not valid, and what does not fit the packed form.
-pub fn prepare<'a>(
-    scene: &'a Scene,
-    traversal: Traversal,
-    kept: &mut KeptTrees,
-) -> Result<(Settled<'a>, PackedScene), RenderError> {
-    scene.validate()?;
-    let mut settled = pilot::settle(scene)?;
-    // Before it is packed, so that the scene is not held in both forms.
-    let light_cells = settled.integrator.as_ref().and_then(|integrator| integrator.light_cells().cloned());
-    let learned = training::learn_for_device(&settled.scene, settled.integrator.take())?;
-    let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
-    let mut packed = PackedScene::for_frame(&settled.scene, traversal, kept).map_err(does_not_fit)?;
-    if let Some(light_cells) = &light_cells {
-        packed.set_light_cells(light_cells).map_err(does_not_fit)?;
-    }
-    packed.guide = learned.words().to_vec();
-    packed.guiding = learned.because;
-    packed.piloted.clone_from(&settled.because.light_samples);
-    packed.roulette.clone_from(&settled.because.roulette);
-    packed.light_choice.clone_from(&settled.because.light_choice);
-    Ok((settled, packed))
-}
+use crate::scene::{MaterialId, Scene};
 
 /// A scene uploaded, its kernels compiled.
 pub struct GpuRenderer {
@@ -72,7 +41,7 @@ pub struct GpuRenderer {
     /// What a camera that moves is put together with.
     center: DVec3,
     environment: PackedEnvironment,
-    /// Paths were traced before the first sample, for a guide, for cells of lights or to choose how lights are drawn from.
+    /// Paths were traced before the first sample to learn about the scene.
     depends_on_view: bool,
     /// What the next frame's hierarchy may be made of.
     trees: KeptTrees,
@@ -104,27 +73,18 @@ impl GpuRenderer {
     ) -> Result<Self, RenderError> {
         let start = Instant::now();
         let opening = if options.waits_for_device() { OpeningDevice::is_open(&opening.wait()?) } else { opening };
-        let traversal = options.packed_traversal(scene, opening.limits());
-        let prepared = prepare(scene, traversal, &mut trees);
-        // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
+        let fitting = Fitting::new(scene, opening.limits(), options, &mut trees);
+        // Without a device, that is the error, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
-        let (settled, packed) = prepared?;
-        let is_open = scene.render.light_choice == LightChoice::Auto && !packed.light_cells.is_empty();
-        let pipeline = match (
-            Self::pipeline(device.clone(), &settled.scene, &packed, options, start),
-            options.by_nodes_instead_of(traversal),
-        ) {
-            // Cells of lights take a buffer more, and nobody has asked for them.
-            (Err(RenderError::DoesNotFit(_)), _) if is_open => {
-                let light_choice = if packed.local_lights < MANY_LIGHTS { LightChoice::Power } else { LightChoice::Tree };
-                let without = Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
-                return Self::with_trees(OpeningDevice::is_open(&device), &without, options, trees);
+        let mut fitting = fitting?;
+        let pipeline = loop {
+            let Fitting { settled, packed, options, .. } = &fitting;
+            match Self::pipeline(device.clone(), &settled.scene, packed, options, start) {
+                Err(RenderError::DoesNotFit(_)) if fitting.gives_something_up(&mut trees)? => {}
+                pipeline => break pipeline?,
             }
-            (Err(RenderError::DoesNotFit(_)), Some(by_nodes)) => {
-                return Self::with_trees(OpeningDevice::is_open(&device), scene, &by_nodes, trees);
-            }
-            (pipeline, _) => pipeline?,
         };
+        let Fitting { settled, packed, .. } = fitting;
         let scene = &*settled.scene;
         let plan = &pipeline.plan;
         let sizer = PassSizer::new(PassLimits {
@@ -147,7 +107,7 @@ impl GpuRenderer {
             sizer,
             center: scene.center(),
             environment: packed.environment,
-            depends_on_view: packed.guiding.is_some() || !packed.light_cells.is_empty() || settled.is_piloted,
+            depends_on_view: settled.depends_on_view,
             trees,
         })
     }

@@ -47,12 +47,10 @@ pub struct PackedScene {
     pub guide: Vec<u32>,
     /// Why lights are chosen as they are; None where nothing was tried to find out.
     pub light_choice: Option<String>,
-    /// Why light samples are as many as they are; None where the scene says how many.
-    pub piloted: Option<String>,
-    /// Why Russian roulette begins where it does; None where the scene says where.
-    pub roulette: Option<String>,
-    /// What was decided about guiding paths and why; None where nobody asked for it.
-    pub guiding: Option<String>,
+    /// The reason for the number of light samples; None where the scene states the number.
+    pub light_samples: Option<String>,
+    /// The reason why directions are drawn by a guide, or are not; None where nobody asked for one.
+    pub directions: Option<String>,
     /// Behind the attributes of every triangle stand others whose texture coordinates are its second ones.
     pub second_uvs: bool,
 }
@@ -119,9 +117,8 @@ impl PackedScene {
             view: View::new(scene, &environment),
             guide: Vec::new(),
             light_choice: None,
-            piloted: None,
-            roulette: None,
-            guiding: None,
+            light_samples: None,
+            directions: None,
             second_uvs: world.second_uvs,
         };
         packed.validate()?;

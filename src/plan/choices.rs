@@ -1,7 +1,5 @@
 //! What is chosen between, and the numbers that decide.
 
-/// Primitives up to which geometry is written into the kernels as constants.
-pub const UNROLL_LIMIT: usize = 64;
 /// Registers that a packet's stack may take: few enough that compilers keep them, enough for hundreds of millions of primitives.
 pub(super) const MOST_STACK_REGISTERS: u32 = 16;
 /// Samples of one pixel in one pass.

@@ -25,12 +25,6 @@ impl Decision {
         Self { about: "light samples", choice, because: because.to_owned() }
     }
 
-    /// From which depth on Russian roulette ends paths, as [`RenderSettings::first_roulette`] says it.
-    pub fn about_roulette(first: Option<u32>, because: &str) -> Self {
-        let choice = first.map_or_else(|| "ends no path".to_owned(), |depth| format!("from depth {depth} on"));
-        Self { about: "roulette", choice, because: because.to_owned() }
-    }
-
     /// How lights are chosen, where that was tried.
     pub fn about_light_choice(way: LightWay, because: &str) -> Self {
         let choice = match way {

@@ -1,6 +1,6 @@
 //! What the plan decided, and why: what `gpt check` and `--stats` tell.
 
-use super::choices::{FilmStorage, GeometryPlacement, StageMode, UNROLL_LIMIT};
+use super::choices::{FilmStorage, GeometryPlacement, StageMode};
 use super::chunks::Chunks;
 use super::decision::Decision;
 use super::error::PlanError;
@@ -13,7 +13,7 @@ use crate::packed::hierarchy::Traversal;
 use crate::sampling::light_cells::table as light_cells;
 use crate::sampling::light_tree;
 use crate::sampling::light_way::MANY_LIGHTS;
-use crate::scene::{LightChoice, RenderSettings, Scene};
+use crate::scene::{FEW_PRIMITIVES, LightChoice, RenderSettings, Scene};
 
 const ASKED_FOR: &str = "asked for";
 /// Edges by which paths end, or Russian roulette may end them, where one kernel traces whole paths.
@@ -28,10 +28,10 @@ pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (Geometry
         _ if !packed.instances.is_empty() => (GeometryPlacement::Hierarchy, "instances are no constants".into()),
         _ if packed.hierarchy.primitive_count == 0 => (GeometryPlacement::Unrolled, "a hierarchy would hold nothing".into()),
         TraversalChoice::Bvh | TraversalChoice::RayQuery => (GeometryPlacement::Hierarchy, ASKED_FOR.into()),
-        TraversalChoice::Auto if count <= UNROLL_LIMIT => {
-            (GeometryPlacement::Unrolled, format!("{count} primitives, at most {UNROLL_LIMIT}"))
+        TraversalChoice::Auto if count <= FEW_PRIMITIVES => {
+            (GeometryPlacement::Unrolled, format!("{count} primitives, at most {FEW_PRIMITIVES}"))
         }
-        TraversalChoice::Auto => (GeometryPlacement::Hierarchy, format!("{count} primitives, more than {UNROLL_LIMIT}")),
+        TraversalChoice::Auto => (GeometryPlacement::Hierarchy, format!("{count} primitives, more than {FEW_PRIMITIVES}")),
     }
 }
 
@@ -178,12 +178,11 @@ pub(super) fn explain(
         let (choice, because) = light_choice(scene.render.light_choice, packed);
         add("light choice", choice, packed.light_choice.clone().unwrap_or(because));
     }
-    if plan.samples_lights() && (plan.light_samples > 1 || packed.piloted.is_some()) {
-        let because = packed.piloted.as_deref().unwrap_or(ASKED_FOR);
+    if plan.samples_lights() && (plan.light_samples > 1 || packed.light_samples.is_some()) {
+        let because = packed.light_samples.as_deref().unwrap_or(ASKED_FOR);
         decisions.push(Decision::about_light_samples([plan.light_samples, plan.light_samples_depth], because));
     }
-    decisions.extend(packed.roulette.iter().map(|because| Decision::about_roulette(scene.render.first_roulette(false), because)));
-    decisions.extend(packed.guiding.as_ref().map(|because| Decision::about_directions(!packed.guide.is_empty(), because)));
+    decisions.extend(packed.directions.as_ref().map(|because| Decision::about_directions(!packed.guide.is_empty(), because)));
     let mut add = |about, choice: String, because: String| decisions.push(Decision { about, choice, because });
     if let Some(lanes) = plan.lanes {
         let because = "on a software device all lanes pay for the way that one of them takes".into();

@@ -32,7 +32,7 @@ mod traversal;
 pub mod unroll;
 mod verified_drivers;
 
-pub use choices::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, StageMode, UNROLL_LIMIT};
+pub use choices::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, StageMode};
 pub use chunks::Chunks;
 pub use decision::Decision;
 pub use error::PlanError;

@@ -24,7 +24,7 @@ use crate::math::luminance;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::{CameraDimension, Dimension, Guide, LightCells, LitPoint, PathSampler, VertexDimension};
-use crate::scene::{ColorInput, Emission, Emitters, Estimator, LightChoice, MaterialId, NumberOrAuto, RenderSettings, Scene};
+use crate::scene::{ColorInput, Emission, Emitters, Estimator, LightChoice, MaterialId, RenderSettings, Scene};
 
 /// A scene made ready for tracing paths.
 #[derive(Debug, Clone)]
@@ -142,7 +142,7 @@ impl Integrator {
     }
 
     /// Chooses lights in another one of the ways that were made ready; `auto` is power.
-    pub(super) fn set_light_choice(&mut self, choice: LightChoice) {
+    pub fn set_light_choice(&mut self, choice: LightChoice) {
         if choice == self.scene.render.light_choice {
             return;
         }
@@ -155,7 +155,7 @@ impl Integrator {
     }
 
     /// What lights are chosen from.
-    pub(super) fn lights(&self) -> &Lights {
+    pub fn lights(&self) -> &Lights {
         &self.lights
     }
 
@@ -171,7 +171,7 @@ impl Integrator {
 
     /// What a light brings to a point of a surface when the shutter opens: an estimate by two random numbers of the integral of luminance and cosine, without
     /// what stands in between and with it. No normal: whatever the cosine.
-    pub(super) fn light_reaching(&self, (from, normal): (LitPoint, DVec3), chosen: (usize, f64), numbers: [u32; 2]) -> [f64; 2] {
+    pub fn light_reaching(&self, (from, normal): (LitPoint, DVec3), chosen: (usize, f64), numbers: [u32; 2]) -> [f64; 2] {
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
         let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), from, chosen, numbers) else {
             return [0.0; 2];
@@ -195,11 +195,6 @@ impl Integrator {
     /// How lights are chosen.
     pub fn light_way(&self) -> LightWay {
         self.lights.way()
-    }
-
-    /// Lets roulette end paths from this depth on.
-    pub fn set_roulette_depth(&mut self, depth: NumberOrAuto) {
-        self.scene.render.roulette_depth = depth;
     }
 
     /// Lets paths have so many edges; returns how many they had.

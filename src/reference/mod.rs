@@ -7,29 +7,20 @@
 
 pub mod bsdf;
 pub mod camera;
-mod clamp;
-mod coverage;
+pub mod coverage;
 pub mod emission;
-mod film;
 mod guided;
 pub mod integrator;
 pub mod intersect;
 pub mod layer;
-pub mod light_cells;
 pub mod lights;
 pub mod mis;
-pub mod pilot;
-mod renderer;
-mod roulette;
+pub mod roulette;
 pub mod rounding;
-mod spread;
 pub mod trace;
-pub mod training;
 mod volume;
 pub mod warp;
 pub mod work;
-pub mod work_of_path;
 
 pub use integrator::Integrator;
-pub use renderer::ReferenceRenderer;
 pub use trace::{PathTrace, PathVertex};

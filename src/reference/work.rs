@@ -1,8 +1,8 @@
 //! Counted work of paths: what they take, whatever the machine.
 //!
-//! Before the first sample, pilots and training trace paths whose number is fixed. What one of them takes is not: where thousands of surfaces lie in
+//! Before the first sample, trial runs and training trace paths whose number is fixed. What one of them takes is not: where thousands of surfaces lie in
 //! one place, a ray meets them all. So work is counted, in tests of nodes and primitives and what takes as long, and what would take too much is
-//! done with fewer paths, or not at all ([`super::work_of_path`]). Counts are those of the reference, so every device and every machine decides alike.
+//! done with fewer paths, or not at all ([`crate::learn::work_of_path`]). Counts are those of the reference, so every device and every machine decides alike.
 
 use std::cell::Cell;
 

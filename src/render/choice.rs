@@ -1,8 +1,8 @@
 //! Which renderer takes a scene.
 
+use crate::cpu::ReferenceRenderer;
 use crate::gpu::{GpuRenderer, OpeningDevice, list_devices};
 use crate::plan::PlanOptions;
-use crate::reference::ReferenceRenderer;
 use crate::renderer::{DeviceChoice, RenderError, Renderer};
 use crate::scene::Scene;
 

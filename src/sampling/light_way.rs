@@ -4,7 +4,7 @@ use super::light_sampler::LightSampler;
 use super::light_tree::MOST_LIGHTS;
 use crate::scene::LightChoice;
 
-/// Lights inside a scene from which on there are many: `auto` tries cells of lights, and takes a tree where these hold too little. Of fewer, a pilot compares
+/// Lights inside a scene from which on there are many: `auto` tries cells of lights, and takes a tree where these hold too little. Of fewer, a trial run compares
 /// cells with a choice by power. A guess, not a measurement.
 pub const MANY_LIGHTS: usize = 24;
 
@@ -20,7 +20,7 @@ pub enum LightWay {
 }
 
 impl LightWay {
-    /// Of these lights. `auto` is the tree of many lights and power of few where nothing was [tried](crate::reference::light_cells::settle).
+    /// Of these lights. `auto` is the tree of many lights and power of few where nothing was [tried](crate::learn::light_cells::settle).
     pub fn of(choice: LightChoice, lights: &LightSampler) -> Self {
         let local = lights.local_count();
         let can_be = |fewest: usize, way| if (fewest..=MOST_LIGHTS).contains(&local) { way } else { Self::Power };

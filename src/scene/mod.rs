@@ -54,7 +54,7 @@ pub use settings::{
 };
 pub use shape::*;
 pub use sources::{ImageSource, MeshSource, Sources};
-pub use summary::SceneSummary;
+pub use summary::{FEW_PRIMITIVES, SceneSummary};
 pub use texture::{
     ChannelInput, ColorInput, ImageTexture, Relief, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };

@@ -8,7 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::reference::ReferenceRenderer;
+use crate::cpu::ReferenceRenderer;
 use crate::reference::rounding::Rounding;
 use crate::sampling::hash::mix;
 

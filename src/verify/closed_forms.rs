@@ -11,12 +11,12 @@ use serde::Serialize;
 
 use super::planted;
 use crate::compare::{Moments, one_sample_t_test_beyond, sidak};
+use crate::cpu::ReferenceRenderer;
 use crate::film::Band;
 use crate::gpu::{Device, GpuRenderer};
 use crate::load;
 use crate::load::SceneError;
 use crate::plan::{Fault, PlanOptions};
-use crate::reference::ReferenceRenderer;
 use crate::renderer::{RenderError, RenderRequest, Renderer, Silent};
 use crate::scene::Scene;
 

@@ -19,10 +19,10 @@ use std::sync::Mutex;
 use serde::Serialize;
 
 use crate::compare::image_tests::{ImageComparison, Picture, TileSettings, compare_paired};
+use crate::cpu::ReferenceRenderer;
 use crate::film::Band;
 use crate::gpu::{Device, GpuRenderer};
 use crate::plan::{Fault, PlanOptions};
-use crate::reference::ReferenceRenderer;
 use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer, Silent};
 use crate::scene::Scene;
 use cause::{Cause, Differing, Selection};

@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use super::cause::{self, Cause, Differing};
 use super::{PATH_TOLERANCE, planted};
+use crate::cpu::ReferenceRenderer;
 use crate::gpu::trace::TracedVertex;
 use crate::gpu::{Device, GpuRenderer};
 use crate::plan::trace_record::TRACED_VERTICES;
 use crate::plan::{Fault, PlanOptions};
-use crate::reference::ReferenceRenderer;
 use crate::reference::bsdf::Density;
 use crate::reference::trace::{FoundLight, PathTrace, PathVertex};
 use crate::renderer::RenderError;

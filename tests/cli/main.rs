@@ -369,11 +369,11 @@ fn check_says_what_is_in_the_scene() {
     // What kernels are made of is for those who ask.
     assert!(report.starts_with("valid\n") && !report.contains("compiled in") && summary["plan"].is_null(), "{report}");
     assert!(text(&place.run("check scene.toml --plan").stdout).contains("compiled in"));
-    // Lights chosen as a pilot finds best, and so many light samples, of pictures that are worth one.
+    // Lights chosen as a trial run finds best, and so many light samples, of pictures that are worth one.
     for (scene, because) in [
-        ("veach-mis", "cells over 5 lights (a pilot found"),
-        ("workshop", "light samples  2 at each of the first 2 surfaces (a pilot found"),
-        ("scene.toml", "light samples  1 (a pilot takes too long"),
+        ("veach-mis", "cells over 5 lights (a trial run found"),
+        ("workshop", "light samples  2 at each of the first 2 surfaces (a trial run found"),
+        ("scene.toml", "light samples  1 (a trial run takes too long"),
     ] {
         let report = text(&place.run(&format!("check {scene} --plan")).stdout);
         assert!(report.contains(because), "`{because}` is not in\n{report}");

@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
+use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
 use gpt::load;
 use gpt::load::SceneError;
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 

@@ -4,8 +4,8 @@
 use crate::common::effort::in_full;
 use glam::DVec3;
 use gpt::compare::{ImageComparison, Picture, TileSettings, compare_replications};
+use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::*;
 

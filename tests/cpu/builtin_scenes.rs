@@ -5,12 +5,12 @@ use std::path::Path;
 
 use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
+use gpt::learn::settle;
 use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
-use gpt::reference::training::learn_for_device;
-use gpt::scene::Scene;
+use gpt::scene::{Guiding, Scene};
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
@@ -48,7 +48,10 @@ fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -
     let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
     let of_scene = |scene: &Scene| {
         let mut packed = PackedScene::for_traversal(scene, traversal).expect("it packs");
-        packed.guide = learn_for_device(scene, None).expect("the reference renders it").words().to_vec();
+        if scene.render.guiding != Guiding::Off {
+            let guide = settle(scene).expect("the reference renders it").guide;
+            packed.guide = guide.map_or_else(Vec::new, |guide| guide.words().to_vec());
+        }
         // Ray queries do not see what moves.
         Plan::new(scene, &packed, limits, options).map_or_else(|_| BTreeSet::new(), |plan| plan.switches.enabled)
     };

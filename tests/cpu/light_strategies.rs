@@ -5,10 +5,10 @@ use std::sync::Arc;
 use crate::common::effort::in_full;
 use glam::Vec3;
 use gpt::compare::image_tests::{Picture, TileSettings, compare_replications};
+use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
+use gpt::learn::settle;
 use gpt::load;
-use gpt::reference::ReferenceRenderer;
-use gpt::reference::pilot::settle;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{
     Estimator, ImageData, ImageTexture, LightChoice, LightSampling, Scene, TextureFilter, TextureKind, TextureWrap,
@@ -247,7 +247,7 @@ fn cells_of_lights_are_taken_where_lists_hold_the_light() {
 /// Of few lights, where what power prefers does not reach what is lit by the others: a weak lamp beside a strong one behind a wall. Not
 /// where all of them light what is seen, nor where there are several triangles of one lamp.
 #[test]
-fn cells_of_few_lights_are_taken_where_a_pilot_finds_them_better() {
+fn cells_of_few_lights_are_taken_where_a_trial_run_finds_them_better() {
     let settled = |parts: &[&str]| {
         let mut scene = load(parts);
         scene.film.size = [256, 256];

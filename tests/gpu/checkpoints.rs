@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 
 use crate::common::device::{DEVICE, with_limits};
 use crate::common::effort::in_full;
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::output::Provenance;
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::render::checkpoint::{Checkpoint, Identity, path_beside};
 use gpt::render::progressive::{self, Goal, Stop, render_kept};
 use gpt::renderer::{Observer, Renderer, Silent};

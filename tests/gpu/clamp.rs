@@ -2,11 +2,11 @@
 
 use crate::common::device::DEVICE;
 use crate::common::picture::render_and_count;
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::math::luminance;
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::RenderReport;
 use gpt::scene::Scene;
 

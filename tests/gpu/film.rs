@@ -1,11 +1,11 @@
 //! What the device's film holds: precision over many samples, samples that add up, bands that cover the picture.
 
 use crate::common::device::{DEVICE, with_limits};
+use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{FilmStorage, PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::state::{BatchState, FilmState, Tally};
 use gpt::renderer::{Batch, Observer, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;

@@ -8,6 +8,7 @@ use crate::common::picture::render;
 use crate::statistics::random::SplitMix64;
 use glam::{DVec3, Vec3};
 use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::load::SceneError;
@@ -15,7 +16,6 @@ use gpt::packed::motion::PackedMotion;
 use gpt::packed::primitive::WorldPrimitive;
 use gpt::packed::shape::{Disk, PrimitiveGeometry, Quad, Sphere, Triangle};
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::scene::{LightSampling, Motion, MotionStep, Scene, Shape, Transform, TransformStep};
 
 const BOTH: [(&str, StageMode); 2] = [("gpu, fused", StageMode::Fused), ("gpu, wavefront", StageMode::Wavefront)];

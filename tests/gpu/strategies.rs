@@ -5,10 +5,10 @@ use std::path::Path;
 use crate::common::device::DEVICE;
 use crate::common::effort::in_full;
 use crate::common::picture::render;
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::plan::PlanOptions;
-use gpt::reference::ReferenceRenderer;
 use gpt::scene::{self, Aperture, ApertureShape, Projection, SamplerKind, Scene};
 
 fn load(text: &str) -> Scene {

@@ -11,9 +11,10 @@ use std::time::Duration;
 use crate::common::effort::in_full;
 use crate::common::files::folder_with;
 use crate::counting::{bytes_ever, take_turn};
+use gpt::cpu::ReferenceRenderer;
 use gpt::load;
 use gpt::packed::PackedScene;
-use gpt::reference::{Integrator, ReferenceRenderer};
+use gpt::reference::Integrator;
 use gpt::scene::Scene;
 
 const HEAD: &str = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n\
@@ -23,14 +24,14 @@ fn read(text: &str) -> Scene {
     load::load_toml_str(text, "grown.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Whether pilots trace their paths, most of which go through thousands of spheres and blends.
-static WITH_PILOTS: LazyLock<bool> = LazyLock::new(|| in_full("pilots of scenes of twice the size"));
+/// Whether trial runs trace their paths, most of which go through thousands of spheres and blends.
+static WITH_TRIAL_RUNS: LazyLock<bool> = LazyLock::new(|| in_full("trial runs of scenes of twice the size"));
 
 /// Prepares the scene for both devices.
 fn prepare(scene: &Scene) {
     let mut scene = Cow::Borrowed(scene);
-    if !*WITH_PILOTS {
-        // Too small for a pilot.
+    if !*WITH_TRIAL_RUNS {
+        // Too small for a trial run.
         scene.to_mut().film.size = [8, 8];
     }
     black_box(PackedScene::new(&scene).expect("it can be packed"));
@@ -87,7 +88,7 @@ pub fn assert_linear(what: &str, size: usize, work: impl Fn(usize) + Sync) {
     assert!(reports.len() < 4, "{what}: {reports:?}");
 }
 
-/// Pilots and learning trace paths whose number is fixed, so that what they take must be bounded by what a path takes. On one thread.
+/// Trial runs and learning trace paths whose number is fixed, so that what they take must be bounded by what a path takes. On one thread.
 fn assert_bounded(what: &str, size: usize, scene: impl Fn(usize) -> Scene + Sync) {
     const MOST: Duration = Duration::from_secs(30);
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
@@ -100,14 +101,14 @@ fn assert_bounded(what: &str, size: usize, scene: impl Fn(usize) -> Scene + Sync
                 time_of_thread() - start
             })
         };
-        let without_pilots = time_of(&|| drop(black_box(Integrator::new(&scene).expect("it can be rendered"))));
-        // With pilots, learning, and what `gpt check` guesses the time by.
+        let without_trial_runs = time_of(&|| drop(black_box(Integrator::new(&scene).expect("it can be rendered"))));
+        // With trial runs, learning, and what `gpt check` guesses the time by.
         let all = time_of(&|| {
             black_box(ReferenceRenderer::new(&scene).expect("it can be rendered"));
             let integrator = Integrator::new(&scene).expect("it can be rendered");
             black_box(integrator.time_of_path(256, 1.0));
         });
-        (all.saturating_sub(without_pilots), all)
+        (all.saturating_sub(without_trial_runs), all)
     };
     let (once, twice) = (measure(size), measure(2 * size));
     let report = format!("{what}, {size}: {once:.1?}, {}: {twice:.1?}", 2 * size);
@@ -125,8 +126,8 @@ fn pile(material: &str, count: usize) -> String {
 const LAMP: &str = "[[light]]\ntype = \"point\"\nposition = [1, 2, 4]\nintensity = 5\n";
 
 #[test]
-fn pilots_of_surfaces_in_one_place() {
-    if !in_full("pilots of surfaces in one place") {
+fn trial_runs_of_surfaces_in_one_place() {
+    if !in_full("trial runs of surfaces in one place") {
         return;
     }
     let _turn = take_turn();
@@ -142,8 +143,8 @@ fn pilots_of_surfaces_in_one_place() {
 }
 
 #[test]
-fn pilots_of_lamps_and_guides_among_much() {
-    if !in_full("pilots of lamps and guides among much") {
+fn trial_runs_of_lamps_and_guides_among_much() {
+    if !in_full("trial runs of lamps and guides among much") {
         return;
     }
     let _turn = take_turn();
@@ -156,8 +157,8 @@ fn pilots_of_lamps_and_guides_among_much() {
 }
 
 #[test]
-fn pilots_of_needles_across_each_other() {
-    if !in_full("pilots of needles across each other") {
+fn trial_runs_of_needles_across_each_other() {
+    if !in_full("trial runs of needles across each other") {
         return;
     }
     let _turn = take_turn();
@@ -185,7 +186,7 @@ fn pilots_of_needles_across_each_other() {
 }
 
 #[test]
-fn pilots_of_instances_in_one_place() {
+fn trial_runs_of_instances_in_one_place() {
     let _turn = take_turn();
     assert_bounded("instances", 5000, |count| {
         let group = "[[group]]\nname = \"g\"\n[[group.shape]]\ntype = \"mesh\"\nmaterial = \"m\"\npositions = [[-2,-2,0],[2,-2,0],[0,2,0]]\nfaces = [[0,1,2]]\n";
@@ -195,7 +196,7 @@ fn pilots_of_instances_in_one_place() {
 }
 
 #[test]
-fn pilots_of_deep_blends() {
+fn trial_runs_of_deep_blends() {
     let _turn = take_turn();
     assert_bounded("blends", 2000, |count| {
         let mut text = format!("{HEAD}{LAMP}[[material]]\nname = \"g\"\ntype = \"glossy\"\nexponent = 20\nreflectance = 0.5\n");

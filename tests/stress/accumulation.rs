@@ -1,8 +1,8 @@
 //! The film after very many samples: means keep their digits, second moments stay what they are.
 
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::Device;
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::scene::Scene;
 
 use super::support::{DEVICE, Effort, Finding, render_band_on, scene, whole_picture, with_limits};

@@ -4,8 +4,8 @@
 //! none of them has found is in no variance. So a render that exceeds its bound must have come with a warning.
 
 use gpt::compare::relative_weight;
+use gpt::cpu::ReferenceRenderer;
 use gpt::load;
-use gpt::reference::ReferenceRenderer;
 use gpt::render::progressive::{self, Goal, Outcome, Stop};
 use gpt::renderer::Silent;
 use gpt::scene::Scene;

@@ -2,11 +2,11 @@
 
 pub use crate::common::device::{DEVICE, with_limits};
 use crate::common::ray_queries::RAY_QUERY_DEVICE;
+use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load::load_toml_str;
 use gpt::plan::PlanOptions;
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderReport, RenderRequest, Renderer, Silent};
 use gpt::scene::{SamplerKind, Scene};
 use gpt::verify::{self, Verdict};

@@ -12,9 +12,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use crate::cpu::ReferenceRenderer;
 use crate::film::KernelLayer;
 use crate::output::{LayerChannel, LayerPicture, LayerSource};
-use crate::reference::ReferenceRenderer;
 use crate::reference::layer::layer_scene;
 use crate::renderer::{Observer, RenderError};
 use crate::sampling::{Sampling, SequencePoint};

@@ -45,7 +45,7 @@ choices! {
 
     /// How a point on a sphere, a rectangle or a triangle that is a light is drawn.
     pub enum LightSampling {
-        /// `cone` for spheres; for rectangles and triangles `cone` or `area`, whichever a pilot of some thousand paths finds better.
+        /// `cone` for spheres; for rectangles and triangles `cone` or `area`, whichever a trial run of some thousand paths finds better.
         Auto = "auto",
         /// Uniform in the cone of directions that meet the sphere, and in those that meet a rectangle or a triangle which is seen under a large angle.
         Cone = "cone",
@@ -57,7 +57,7 @@ choices! {
 
     /// How next event estimation chooses among lights.
     pub enum LightChoice {
-        /// Of many lights, by cells if lists of lights hold most of the light, and by a tree if not; of few, by power or by cells, whichever a pilot of some thousand paths finds better.
+        /// Of many lights, by cells if lists of lights hold most of the light, and by a tree if not; of few, by power or by cells, whichever a trial run of some thousand paths finds better.
         Auto = "auto",
         /// In constant time, by power wherever the light goes, and evenly over groups in three of ten choices.
         Power = "power",
@@ -73,7 +73,7 @@ choices! {
         Off = "off",
         /// On surfaces that scatter diffusely.
         On = "on",
-        /// As with "on" where a pilot finds, after it has learned, that this has clearly less error × cost; else never.
+        /// As with "on" where a trial run finds, after it has learned, that this has clearly less error × cost; else never.
         Auto = "auto",
     }
 

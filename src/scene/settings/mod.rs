@@ -13,7 +13,5 @@ pub use kinds::{
     SamplerKind,
 };
 pub use number_or_auto::NumberOrAuto;
-pub use table::{
-    Assignment, DEFAULT_ROULETTE_DEPTH, MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH, RenderSettings, SETTINGS, Setting,
-};
+pub use table::{Assignment, MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH, RenderSettings, SETTINGS, Setting};
 pub use value::{BadSetting, MOST_SAMPLES, Value, Values};

@@ -5,10 +5,10 @@ use serde::{Serialize, Serializer};
 use super::value::{Field, Value};
 use crate::choice::Named;
 
-/// A number that a setting states, or that a pilot of some thousand paths finds.
+/// A number that a setting states, or that a trial run of some thousand paths finds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NumberOrAuto {
-    /// What a pilot finds best.
+    /// Left to the renderer: a trial run finds the best, or the setting has a fixed default.
     Auto,
     /// So many.
     Number(u32),

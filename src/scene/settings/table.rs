@@ -26,8 +26,8 @@ pub const MOST_LIGHT_SAMPLES_DEPTH: u32 = 3;
 const FEWEST_GUIDING_PATHS: u32 = 1 << 12;
 const MOST_GUIDING_PATHS: u32 = 1 << 20;
 
-/// First depth at which Russian roulette may end a path where neither the scene nor a pilot chooses one.
-pub const DEFAULT_ROULETTE_DEPTH: u32 = 5;
+/// First depth at which Russian roulette may end a path where the scene states none.
+const DEFAULT_ROULETTE_DEPTH: u32 = 5;
 /// The same of guided paths: what they are expected to bring is known.
 const GUIDED_ROULETTE_DEPTH: u32 = 2;
 
@@ -112,7 +112,7 @@ settings! {
         }
         /// Light samples at the first surfaces of a path; later surfaces take one. Several pay where direct light is most of the noise.
         light_samples: NumberOrAuto = NumberOrAuto::Auto => {
-            values: WholeOr(1, MOST_LIGHT_SAMPLES, auto("As many as a pilot of some thousand paths finds best, and at as many surfaces.")),
+            values: WholeOr(1, MOST_LIGHT_SAMPLES, auto("As many as a trial run of some thousand paths finds best, and at as many surfaces.")),
             flag: "--light-samples",
             placeholder: "N",
             header: "gpt:lightSamples",
@@ -160,7 +160,7 @@ settings! {
         }
         /// First depth at which Russian roulette may end a path; 0 = never.
         roulette_depth: NumberOrAuto = NumberOrAuto::Auto => {
-            values: WholeOr(0, MOST_SAMPLES, auto("The depth that a pilot of some thousand paths finds best; 5 where none is rendered, 2 where paths are guided.")),
+            values: WholeOr(0, MOST_SAMPLES, auto("5, and 2 where paths are guided.")),
             flag: "--roulette-depth",
             placeholder: "N",
             header: "gpt:rouletteDepth",
@@ -286,7 +286,7 @@ impl fmt::Display for Assignment {
 }
 
 impl RenderSettings {
-    /// How many light samples the surface takes that a ray of this depth met: 1 is the camera's. One everywhere before a pilot has found a number.
+    /// How many light samples the surface takes that a ray of this depth met: 1 is the camera's. One everywhere before a trial run has found a number.
     #[doc(hidden)]
     pub fn light_samples_at(&self, depth: u32) -> u32 {
         match self.light_samples {
@@ -301,8 +301,7 @@ impl RenderSettings {
         [self.light_samples_at(1).clamp(1, MOST_LIGHT_SAMPLES), self.light_samples_depth.clamp(1, MOST_LIGHT_SAMPLES_DEPTH)]
     }
 
-    /// The first depth at which Russian roulette may end a path, guided or not; none where it never does. [`DEFAULT_ROULETTE_DEPTH`] before a pilot has
-    /// found one.
+    /// The first depth at which Russian roulette may end a path, guided or not; none where it never does.
     #[doc(hidden)]
     pub fn first_roulette(&self, is_guided: bool) -> Option<u32> {
         match self.roulette_depth {

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::*;
-use crate::reference::ReferenceRenderer;
+use crate::cpu::ReferenceRenderer;
 use crate::renderer::RenderError;
 use crate::scene::{
     Aperture, CoatNormalMap, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture,

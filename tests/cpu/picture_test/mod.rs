@@ -3,11 +3,11 @@
 mod synthetic;
 
 use gpt::Scene;
+use gpt::cpu::ReferenceRenderer;
 use gpt::picture_test::TestSettings;
 use gpt::picture_test::bless::bless;
 use gpt::picture_test::golden::Golden;
 use gpt::picture_test::judge::{Judgement, judge};
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::Silent;
 use statrs::distribution::{Binomial, DiscreteCDF};
 

@@ -149,7 +149,7 @@ fn a_light_within_a_volume_agrees() {
     let (scene, off) = (within(AMBER), within(&AMBER.replace("distance = 0.6", "distance = 0.594")));
     let Some(device) = DEVICE.as_ref() else { return };
     let mut gpu = gpt::gpu::GpuRenderer::on(device, &off, &PlanOptions::default()).expect("the scene fits");
-    let mut cpu = gpt::reference::ReferenceRenderer::new(&scene).expect("the scene is supported");
+    let mut cpu = gpt::cpu::ReferenceRenderer::new(&scene).expect("the scene is supported");
     let verdict = gpt::verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
     assert!(!verdict.agrees, "{verdict:#?}");
 }
@@ -174,7 +174,7 @@ fn a_weight_off_by_a_hundredth_is_noticed() {
     let off = stage(&blend("white", "mirror", "{ type = \"constant\", value = 0.51 }"));
     let Some(device) = DEVICE.as_ref() else { return };
     let mut gpu = gpt::gpu::GpuRenderer::on(device, &off, &PlanOptions::default()).expect("the scene fits");
-    let mut cpu = gpt::reference::ReferenceRenderer::new(&scene).expect("the scene is supported");
+    let mut cpu = gpt::cpu::ReferenceRenderer::new(&scene).expect("the scene is supported");
     let verdict = gpt::verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
     assert!(!verdict.agrees, "{verdict:#?}");
     assert!(compare(&scene, &PlanOptions::default()).is_some_and(|verdict| verdict.agrees));

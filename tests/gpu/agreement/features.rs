@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use gpt::cpu::ReferenceRenderer;
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{Estimator, Scene};
 

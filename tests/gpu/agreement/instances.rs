@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
+use gpt::cpu::ReferenceRenderer;
 use gpt::load;
 use gpt::plan::{Chunks, GeometryPlacement, PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{Scene, Shape, TransformStep};
 

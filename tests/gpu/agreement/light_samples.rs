@@ -1,8 +1,8 @@
 //! Several light samples at a path's first surface, on both devices and with every way to trace it.
 
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::reference::ReferenceRenderer;
 use gpt::scene::{Estimator, SamplerKind};
 use gpt::verify;
 

@@ -1,10 +1,10 @@
 //! Every kind of light, every way of drawing directions to it, and portals, on both devices.
 
 use glam::Vec3;
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::reference::ReferenceRenderer;
 use gpt::scene::{Estimator, Geometry, Light, LightChoice, LightSampling, Mesh, Scene, Shape};
 use gpt::verify::{self, Verdict};
 

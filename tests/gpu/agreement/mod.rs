@@ -17,10 +17,10 @@ mod wall;
 use crate::common::device::{DEVICE, with_limits};
 use crate::common::effort::in_full;
 use crate::common::scenes::ENOUGH;
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::reference::ReferenceRenderer;
 use gpt::scene::{self, Estimator, MisHeuristic, SamplerKind, Scene};
 use gpt::verify::{self, Verdict};
 

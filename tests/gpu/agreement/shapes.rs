@@ -175,7 +175,7 @@ fn a_shape_off_by_a_hundredth_is_noticed() {
         larger.shapes[1].transform.steps.insert(0, step());
         let mut gpu = gpt::gpu::GpuRenderer::on(device, &scene, &PlanOptions::default()).expect("the scene fits");
         let mut compare_with = |scene: &Scene| {
-            let mut cpu = gpt::reference::ReferenceRenderer::new(scene).expect("the scene is supported");
+            let mut cpu = gpt::cpu::ReferenceRenderer::new(scene).expect("the scene is supported");
             gpt::verify::compare(scene, &mut gpu, &mut cpu, None).expect("both render")
         };
         let verdict = compare_with(&larger);

@@ -1,8 +1,8 @@
 //! Every sampler, filter, aperture and projection does the same on both devices.
 
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::scene::{Aperture, ApertureShape, Filter, FilterKind, PixelSampler, Projection, SamplerKind, Scene};
 use gpt::verify::{self, Verdict};
 

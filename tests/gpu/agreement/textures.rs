@@ -187,7 +187,7 @@ fn another_channel_and_another_place_are_noticed() {
     for (number, fault) in faults.into_iter().enumerate() {
         let mut faulty = scene.clone();
         fault(&mut faulty);
-        let mut cpu = gpt::reference::ReferenceRenderer::new(&faulty).expect("the scene is supported");
+        let mut cpu = gpt::cpu::ReferenceRenderer::new(&faulty).expect("the scene is supported");
         let verdict = gpt::verify::compare(&faulty, &mut gpu, &mut cpu, None).expect("both render");
         assert!(!verdict.agrees, "fault {number}");
     }

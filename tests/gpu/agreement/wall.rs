@@ -3,10 +3,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::plan::PlanOptions;
-use gpt::reference::ReferenceRenderer;
 use gpt::scene::Scene;
 use gpt::verify::{self, Verdict};
 

@@ -15,10 +15,10 @@ use std::io;
 use crate::common::device::DEVICE;
 use crate::common::effort::in_full;
 use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
+use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
 use gpt::gpu::GpuRenderer;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 

@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use crate::common::device::{DEVICE, with_limits};
 use crate::common::effort::in_full;
+use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
 use gpt::render::progressive::{self, Goal, Outcome, Stop};
 use gpt::renderer::{Batch, RenderRequest, Renderer, Silent};
 use gpt::scene::{self, SamplerKind, Scene};

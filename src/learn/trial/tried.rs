@@ -1,16 +1,15 @@
-//! What a pilot's pixels come to in one way of drawing from lights.
+//! The pixels of a trial run as one way of drawing from lights renders them.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::super::paths::pixel_of;
 use super::rays::Rays;
-use super::roulette::{Effects, PathRecord, ROULETTE_DEPTHS};
 use super::sum::Sum;
 use super::unguided::{Tale, UnguidedRecord};
 use super::watched::{Record, Watched};
 use crate::compare::metrics::relative_weight;
 use crate::reference::integrator::Integrator;
-use crate::reference::spread::pixel_of;
 use crate::reference::work;
 use crate::sampling::hash::mix;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
@@ -43,11 +42,6 @@ impl Found {
     /// Of so many pixels; the cost is not known yet.
     pub fn new(integrator: &Integrator, pixels: u32) -> Self {
         Self::recorded::<()>(integrator, pixels).0
-    }
-
-    /// As [`Found::new`], with what roulette from other depths on would do to the paths.
-    pub fn with_roulette(integrator: &Integrator, pixels: u32) -> (Self, Vec<Effects>) {
-        Self::recorded::<PathRecord>(integrator, pixels)
     }
 
     /// As [`Found::new`] of guided paths, with what they tell of unguided ones.
@@ -126,27 +120,6 @@ impl Found {
         let of_view = in_view.error(self.together(other).sum::<DVec3>() / self.pixels.len() as f64);
         (errors[0] + of_view) * self.cost / ((errors[1] + of_view) * other.cost)
     }
-}
-
-/// Error times cost with roulette from each of [`ROULETTE_DEPTHS`] on, over that of a way as it is. `effects`: of its pixels. `cost`: of rays.
-pub fn losses_of_roulette(
-    found: &Found,
-    effects: &[Effects],
-    in_view: &InView,
-    cost: impl Fn(Rays) -> f64,
-) -> [f64; ROULETTE_DEPTHS.len()] {
-    let total = effects.iter().fold(Effects::default(), |sum, effects| sum.and(*effects));
-    let mut more = [0.0; ROULETTE_DEPTHS.len()];
-    for ((_, weight), effects) in found.weighed().zip(effects) {
-        for (more, effect) in more.iter_mut().zip(effects.0) {
-            *more += effect.variance.dot(weight) / f64::from(SAMPLES);
-        }
-    }
-    let error = found.errors(in_view).iter().sum::<f64>();
-    // Both are estimates: roulette makes a part of the error, however it came out.
-    let loss = |index: usize| (error + more[index]).max(LEAST_ERROR * error) * cost(total.0[index].rays);
-    let own = loss(0);
-    std::array::from_fn(|index| loss(index) / own)
 }
 
 /// The error of guided paths, and that of unguided ones. Samples depend on each other by their random numbers, which makes the error less than

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::integrator::Integrator;
-use super::trace::PathVisitor;
+use crate::reference::integrator::Integrator;
+use crate::reference::trace::PathVisitor;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 
 /// A pixel for each path: spread evenly over the film, whatever their number (Roberts's R2 sequence, in integers).

@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use crate::common::effort::in_full;
+use gpt::cpu::ReferenceRenderer;
+use gpt::learn::settle;
 use gpt::load;
-use gpt::reference::ReferenceRenderer;
-use gpt::reference::pilot::settle;
-use gpt::reference::training::learn_for_device;
 use gpt::scene::{Estimator, Guiding, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 
 const SIZE: [u32; 2] = [256, 256];
 
-/// A built-in scene, large enough for a pilot.
+/// A built-in scene, large enough for a trial run.
 fn built_in(name: &str) -> Scene {
     let mut scene = Scene::load(name).expect("a built-in scene");
     scene.film.size = SIZE;
@@ -92,7 +91,7 @@ fn what_is_given_stays_and_what_cannot_pay_is_not_tried() {
         scene
     };
     assert_eq!(light_samples(&given(|render| (render.light_samples, render.light_samples_depth) = (5.into(), 3))), [5, 3]);
-    let without_lights = |render: &mut RenderSettings| (render.estimator, render.roulette_depth) = (Estimator::Bsdf, 5.into());
+    let without_lights = |render: &mut RenderSettings| render.estimator = Estimator::Bsdf;
     let not_tried = [given(without_lights), given(|render| render.max_depth = 1), {
         let mut small = scene.clone();
         small.film.size = [255, 256];
@@ -100,7 +99,7 @@ fn what_is_given_stays_and_what_cannot_pay_is_not_tried() {
     }];
     for scene in not_tried {
         let settled = settle(&scene).expect("the reference can render the scene");
-        assert_eq!((settled.scene.render.several_light_samples(), settled.is_piloted), ([1, 1], false));
+        assert_eq!((settled.scene.render.several_light_samples(), settled.depends_on_view), ([1, 1], false));
         assert!(settled.because.light_samples.is_some());
     }
 }
@@ -120,39 +119,19 @@ fn nothing_is_tried_where_only_an_even_sky_gives_light() {
     );
 }
 
-/// Roulette begins where the pilot finds that it pays, a depth that is given stays, and guided paths have a roulette of their own.
-#[test]
-fn roulette_begins_where_it_pays() {
-    let first = |scene: &Scene| settled(scene).roulette_depth;
-    assert_eq!(first(&built_in("cornell")), 5.into());
-    // Three spheres under a sky: few paths go on, and those that do find light.
-    assert_eq!(first(&built_in("spheres")), 0.into());
-    let with = |change: fn(&mut RenderSettings)| {
-        let mut scene = built_in("spheres");
-        change(&mut scene.render);
-        scene
-    };
-    assert_eq!(first(&with(|render| render.roulette_depth = 3.into())), 3.into());
-    assert_eq!(first(&with(|render| render.guiding = Guiding::On)), NumberOrAuto::Auto);
-    // Paths without a limit have to end.
-    assert_ne!(first(&with(|render| render.max_depth = 0)), 0.into());
-    // Light samples may be given while roulette is not.
-    assert_eq!(first(&with(|render| render.light_samples = 1.into())), 0.into());
-}
-
 /// With `auto` paths are guided neither in pictures for which learning takes too long, nor where it has begun and does not pay.
 #[test]
 fn a_guide_that_does_not_pay_is_given_up() {
     let because = |size: [u32; 2]| {
         let mut scene = built_in("veach-mis");
         (scene.film.size, scene.render.guiding) = (size, Guiding::Auto);
-        let learned = learn_for_device(&scene, None).expect("the reference can render the scene");
+        let learned = settle(&scene).expect("the reference can render the scene");
         assert!(learned.guide.is_none());
-        learned.because.expect("there is a reason")
+        learned.because.directions.expect("there is a reason")
     };
     assert_eq!(because([255, 256]), "learning takes too long for so few pixels");
-    let after_a_pilot = because(SIZE);
-    assert!(after_a_pilot.starts_with("a pilot found 1."), "{after_a_pilot}");
+    let after_a_trial_run = because(SIZE);
+    assert!(after_a_trial_run.starts_with("a trial run found 1."), "{after_a_trial_run}");
 }
 
 /// The last two rounds of learning make the guide, and the scene may say how many paths they have, which are traced by the 256.
@@ -161,7 +140,8 @@ fn a_guide_learns_of_as_many_paths_as_are_wanted() {
     let because = |paths: NumberOrAuto| {
         let mut scene = built_in("cornell");
         (scene.film.size, scene.render.guiding, scene.render.guiding_paths) = ([32, 24], Guiding::On, paths);
-        learn_for_device(&scene, None).expect("the reference can render the scene").because.expect("there is a reason")
+        let learned = settle(&scene).expect("the reference can render the scene");
+        learned.because.directions.expect("there is a reason")
     };
     for (paths, both) in [(NumberOrAuto::Auto, 24_576), (4096.into(), 6144), (5000.into(), 5120 + 2560)] {
         let because = because(paths);
@@ -177,12 +157,12 @@ fn a_guide_that_pays_late_is_kept() {
     }
     let mut scene = built_in("cellar");
     scene.render.guiding = Guiding::Auto;
-    let learned = learn_for_device(&scene, None).expect("the reference can render the scene");
-    let because = learned.because.expect("there is a reason");
-    assert!(learned.guide.is_some() && because.starts_with("a pilot found 0."), "{because}");
+    let learned = settle(&scene).expect("the reference can render the scene");
+    let because = learned.because.directions.clone().expect("there is a reason");
+    assert!(learned.guide.is_some() && because.starts_with("a trial run found 0."), "{because}");
 }
 
-/// A render whose settings leave it open is, sample by sample, the one whose settings say what the pilot chose, and not that of one light sample by power.
+/// A render whose settings leave it open is, sample by sample, the one whose settings say what the trial run chose, and not that of one light sample by power.
 #[test]
 fn what_is_chosen_is_what_is_rendered() {
     let open = built_in("veach-mis");

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::integrator::Integrator;
-use super::spread::{follow, pixel_of};
-use super::trace::PathVisitor;
-use super::work;
+use super::paths::{follow, pixel_of};
+use crate::reference::integrator::Integrator;
+use crate::reference::trace::PathVisitor;
+use crate::reference::work;
 use crate::sampling::Sampling;
 use crate::sampling::hash::mix;
 use crate::scene::{PixelSampler, SamplerKind};
@@ -19,7 +19,7 @@ const BATCHES: [u32; 4] = [2, 6, 24, 96];
 const MOST_JUDGING: u64 = work::SECOND;
 /// Work after which a path is given up. It then took more than anything that is traced thousands of times may take.
 const MOST_OF_PATH: u64 = work::SECOND / 4;
-/// Vertices after which a path is given up, as pilots do.
+/// Vertices after which a path is given up, as trial runs do.
 const MOST_VERTICES: u32 = 64;
 
 /// The work of a path of this scene, light samples included, by the mean of a few that are spread over the film: the same ones, whatever the seed.

@@ -13,23 +13,21 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::bsdf::{BsdfSample, Density};
-use super::integrator::Integrator;
-use super::intersect::Surface;
-use super::spread::{follow, pixel_of};
-use super::trace::PathVisitor;
-use super::{work, work_of_path};
+use super::extent::{has_few_pixels, has_many_triangles, pixel_count};
+use super::paths::{follow, pixel_of};
+use super::work_of_path;
+use crate::reference::bsdf::{BsdfSample, Density};
+use crate::reference::integrator::Integrator;
+use crate::reference::intersect::Surface;
+use crate::reference::trace::PathVisitor;
+use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
 use crate::sampling::light_way::{LightWay, MANY_LIGHTS};
 use crate::sampling::{LightTree, LitPoint, Sampling};
-use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, SceneSummary, Shape};
+use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, Shape};
 
-/// Pixels of a film below which learning would take longer than it saves, as a pilot would.
-const FEWEST_PIXELS: u64 = 1 << 16;
-/// Triangles above which the reference's hierarchy, which learning needs, takes seconds to build.
-const MOST_TRIANGLES: usize = 1 << 20;
 /// Share of the light that may come from lights which are in no list, where nobody says how lights are chosen.
 const MOST_UNLISTED: f64 = 0.1;
 /// One path for so many pixels says where light is sampled, within these numbers.
@@ -74,7 +72,7 @@ pub struct LightsSettled<'a> {
 }
 
 /// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and learns what that needs. Of few lights it learns what
-/// a pilot compares with a choice by power.
+/// a trial run compares with a choice by power.
 ///
 /// # Errors
 /// What the reference cannot render.
@@ -147,13 +145,8 @@ fn is_sampled(scene: &Scene) -> bool {
     scene.render.estimator != Estimator::Bsdf && scene.render.max_depth != 1
 }
 
-fn pixel_count(scene: &Scene) -> u64 {
-    scene.film.size.map(u64::from).iter().product()
-}
-
 fn is_worth_learning(scene: &Scene) -> bool {
-    let SceneSummary { triangles, group_triangles, .. } = SceneSummary::of(scene);
-    pixel_count(scene) >= FEWEST_PIXELS && triangles + group_triangles <= MOST_TRIANGLES
+    !has_few_pixels(scene) && !has_many_triangles(scene)
 }
 
 /// A point of a surface at which light may be sampled.

@@ -1,12 +1,12 @@
-//! Whether a guide pays: error times cost with it and without it, by what guided paths tell of both.
+//! The gain of a guide: error times cost with it and without it, as guided paths tell both.
 
-use super::cost::{SIMPLE, TRAVERSED};
-use super::extent::{has_few_pixels, has_many_triangles, tried_pixels};
+use super::super::extent::{has_few_pixels, has_many_triangles};
+use super::cost::costs;
 use super::rays::Rays;
 use super::tried::{Found, InView, errors_of_guiding};
-use crate::plan::UNROLL_LIMIT;
+use super::tried_pixels;
 use crate::reference::integrator::Integrator;
-use crate::scene::Scene;
+use crate::scene::{FEW_PRIMITIVES, Scene};
 
 /// Why no guide is tried, if so.
 pub fn why_no_guide(scene: &Scene) -> Option<&'static str> {
@@ -21,7 +21,7 @@ pub fn loss_with_guide(integrator: &mut Integrator) -> f64 {
     let pixels = tried_pixels(integrator.scene());
     let (found, tales) = Found::unguided(integrator, pixels);
     let in_view = InView::new(integrator, pixels);
-    let costs = if integrator.primitive_count() <= UNROLL_LIMIT { SIMPLE } else { TRAVERSED };
+    let costs = costs(integrator.primitive_count() <= FEW_PRIMITIVES);
     let cost = |rays: Rays, of_guide: f64| (1.0 + of_guide) * rays.path + costs.light_sample * rays.shadow;
     let unguided_rays = tales.iter().fold(Rays::default(), |sum, tale| sum.and(tale.rays));
     let rays = found.rays().times(1.0 / found.samples_of_pixel());
@@ -36,13 +36,13 @@ mod tests {
 
     use glam::DVec3;
 
+    use super::super::super::guide;
+    use super::super::super::paths::{follow, pixel_of};
     use super::super::unguided::{Tale, UnguidedRecord};
     use super::super::watched::{Record, Watched};
     use super::*;
     use crate::compare::Moments;
     use crate::load;
-    use crate::reference::spread::{follow, pixel_of};
-    use crate::reference::training;
     use crate::sampling::Sampling;
     use crate::scene::{Estimator, Guiding, MisHeuristic, NumberOrAuto, RenderSettings, SamplerKind};
 
@@ -72,7 +72,7 @@ mod tests {
             load::load_toml_str(&ROOM.replace("WIDTH", width), "room", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
         change(&mut scene.render);
         let mut integrator = Integrator::new(&scene).expect("the reference renders it");
-        assert!(training::train(&mut integrator).guide.is_some());
+        assert!(guide::train(&mut integrator).guide.is_some());
         integrator
     }
 
@@ -123,7 +123,7 @@ mod tests {
         let mut cornell = load::load(Some("cornell")).expect("it is built in");
         (cornell.film.size, cornell.render.guiding) = ([32, 32], Guiding::On);
         let mut cornell = Integrator::new(&cornell).expect("the reference renders it");
-        assert!(training::train(&mut cornell).guide.is_some());
+        assert!(guide::train(&mut cornell).guide.is_some());
         let cornell = loss_with_guide(&mut cornell);
         assert!(behind_a_wall < 0.7 && cornell > 1.0, "{behind_a_wall} and {cornell}");
     }

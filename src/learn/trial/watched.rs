@@ -1,4 +1,4 @@
-//! What is noted of a path that a pilot follows.
+//! Notes about a path that a trial run follows.
 
 use glam::DVec3;
 

@@ -1,6 +1,6 @@
 //! What guided paths tell of paths without a guide.
 //!
-//! A pilot without a guide misjudges it, because it seldom sees the rare bright paths that a guide is for. Guided paths see them, and tell the
+//! A trial run without a guide misjudges it, because it seldom sees the rare bright paths that a guide is for. Guided paths see them, and tell the
 //! variance of both ways: a path that has the density p_g with the guide and p_u without it finds, without it, other contributions c₁, c₂, …,
 //! since throughput goes with one over the density and multiple importance sampling weighs by other densities. With rₖ = p_u / p_g up to where the k-th
 //! is found, roulette's chances included, the mean of Σₖ rₖ cₖ (cₖ + 2 Σ_{j<k} cⱼ) over guided paths is the second moment of a sample without a guide,

@@ -10,13 +10,14 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::bsdf::{BsdfSample, Density, View};
-use super::integrator::Integrator;
-use super::intersect::Surface;
-use super::pilot;
-use super::spread::{follow, pixel_of};
-use super::trace::{LightConnection, PathVisitor};
-use super::{work, work_of_path};
+use super::paths::{follow, pixel_of};
+use super::trial;
+use super::work_of_path;
+use crate::reference::bsdf::{BsdfSample, Density, View};
+use crate::reference::integrator::Integrator;
+use crate::reference::intersect::Surface;
+use crate::reference::trace::{LightConnection, PathVisitor};
+use crate::reference::work;
 use crate::sampling::Sampling;
 use crate::sampling::guide::{Arrival, Guide, learn};
 use crate::sampling::hash::mix;
@@ -24,7 +25,7 @@ use crate::scene::{Guiding, NumberOrAuto, PixelSampler, SamplerKind, Scene};
 
 /// Rounds, each of twice as many paths as the one before.
 const ROUNDS: usize = 5;
-/// After so many of them a pilot looks whether guiding pays, where it has to. Error × cost with the guide, over that without one, may be so much at
+/// After so many of them a trial run looks whether guiding pays, where it has to. Error × cost with the guide, over that without one, may be so much at
 /// most, or learning ends and paths are not guided. A guide still improves, so early looks allow more.
 const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.85), (ROUNDS, MOST_LOSS)];
 /// What a guide of all rounds may leave at most: learning takes time as well.
@@ -35,7 +36,7 @@ const FEWEST_PATHS: u32 = 1 << 14;
 const MOST_PATHS: u32 = 1 << 19;
 /// Work of all rounds at most: a guide may be asked to learn for minutes, and does where paths take what they usually do.
 const MOST_WORK: f64 = 600.0 * work::SECOND as f64;
-/// A path that takes more meets thousands of surfaces in one place; then learning takes no longer than a pilot does.
+/// A path that takes more meets thousands of surfaces in one place; then learning takes no longer than a trial run does.
 const UNUSUAL_WORK: f64 = 16_384.0;
 const MOST_WORK_OF_UNUSUAL: f64 = 8.0 * work::SECOND as f64;
 /// Paths that one task traces.
@@ -54,13 +55,6 @@ pub struct Learned {
     pub because: Option<String>,
 }
 
-impl Learned {
-    /// The table that kernels read; empty where paths are not guided.
-    pub fn words(&self) -> &[u32] {
-        self.guide.as_ref().map_or(&[], |guide| guide.words())
-    }
-}
-
 /// Learns a guide for the scene of an integrator, and leaves it there, if the scene's settings want one.
 pub fn train(integrator: &mut Integrator) -> Learned {
     let guiding = integrator.scene().render.guiding;
@@ -72,34 +66,23 @@ pub fn train(integrator: &mut Integrator) -> Learned {
         return not_at_all("paths have no bounce that light depends on".to_owned());
     }
     let has_to_pay = guiding == Guiding::Auto;
-    if let Some(because) = pilot::why_no_guide(integrator.scene()).filter(|_| has_to_pay) {
+    if let Some(because) = trial::why_no_guide(integrator.scene()).filter(|_| has_to_pay) {
         return not_at_all(because.to_owned());
     }
     let of_path = work_of_path::of_path(integrator);
     let Some(rounds) = affordable(rounds(integrator.scene()), of_path, has_to_pay) else {
-        return not_at_all(pilot::too_much_work("learning", of_path));
+        return not_at_all(trial::too_much_work("learning", of_path));
     };
     let Trained { guide, paths, loss } = trained(integrator, rounds, has_to_pay);
     if let Some(loss) = loss.filter(|loss| *loss > MOST_LOSS) {
         integrator.set_guide(None);
-        return not_at_all(format!("a pilot found {loss:.2} of the error × cost without a guide"));
+        return not_at_all(format!("a trial run found {loss:.2} of the error × cost without a guide"));
     }
     integrator.set_guide(guide.clone());
     let Some(found) = &guide else { return not_at_all(format!("{paths} paths found no light")) };
-    let why = loss.map_or("asked for".to_owned(), |loss| format!("a pilot found {loss:.2} of the error × cost without one"));
+    let why = loss.map_or("asked for".to_owned(), |loss| format!("a trial run found {loss:.2} of the error × cost without one"));
     let because = format!("{why}; {} cells of {paths} paths", found.cells());
     Learned { guide, because: Some(because) }
-}
-
-/// As [`train`], for a device that renders the scene instead. `integrator`: the scene made ready, where it is already.
-///
-/// # Errors
-/// What the reference cannot render.
-pub fn learn_for_device(scene: &Scene, integrator: Option<Integrator>) -> Result<Learned, crate::renderer::RenderError> {
-    if scene.render.guiding == Guiding::Off {
-        return Ok(Learned::default());
-    }
-    Ok(train(&mut integrator.map_or_else(|| Integrator::new(scene), Ok)?))
 }
 
 /// Paths of one edge scatter nowhere.
@@ -154,7 +137,7 @@ fn trained(integrator: &mut Integrator, rounds: [u32; ROUNDS], has_to_pay: bool)
         integrator.set_guide(trained.guide.clone());
         let look = MOST_LOSSES.iter().find(|(rounds, _)| has_to_pay && trained.guide.is_some() && *rounds == round + 1);
         if let Some((_, most)) = look {
-            let loss = pilot::loss_with_guide(integrator);
+            let loss = trial::loss_with_guide(integrator);
             trained.loss = Some(loss);
             if loss > *most {
                 break;

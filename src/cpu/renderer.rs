@@ -7,18 +7,17 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clamp::Clamp;
-use super::coverage::FirstOwners;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
-use super::integrator::Integrator;
-use super::intersect::Ray;
-use super::layer::LayerVisitor;
-use super::pilot::{self, Reasons};
-use super::rounding::Rounding;
-use super::trace::{PathTrace, PathVisitor, RayCounter};
-use super::training;
 use crate::film::KernelLayer;
+use crate::learn::{self, Reasons, Settled};
 use crate::math::luminance;
 use crate::plan::{Decision, PlanOptions};
+use crate::reference::coverage::FirstOwners;
+use crate::reference::integrator::Integrator;
+use crate::reference::intersect::Ray;
+use crate::reference::layer::LayerVisitor;
+use crate::reference::rounding::Rounding;
+use crate::reference::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::renderer::sink::{Sink, keep_between};
 use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_SWEEP, Tally};
 use crate::renderer::{Batch, Change, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
@@ -41,13 +40,11 @@ pub struct ReferenceRenderer {
     integrator: Integrator,
     /// What is made in place of the picture.
     layer: Option<KernelLayer>,
-    /// Whether paths are guided, and why, where that was asked for.
-    guiding: Option<String>,
     /// Most pixels whose samples go together: [`PIXELS_IN_MEMORY`] but for tests.
     pixels_in_memory: u64,
     /// Why settings are what they are that the scene leaves open.
     because: Reasons,
-    /// Paths were traced before the first sample, for a guide, for cells of lights or to choose how lights are drawn from.
+    /// Paths were traced before the first sample to learn about the scene.
     depends_on_view: bool,
     build_seconds: f64,
     /// Passes done and how long they took, to size the next.
@@ -108,19 +105,15 @@ impl ReferenceRenderer {
         Self::of_layer(scene, None)
     }
 
-    /// As [`ReferenceRenderer::new`], to make a layer in place of the picture, of a scene that is [made ready](super::layer::layer_scene) for it.
+    /// As [`ReferenceRenderer::new`], to make a layer in place of the picture, of a scene that is [made ready](crate::reference::layer::layer_scene) for it.
     pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>) -> Result<Self, RenderError> {
         let start = Instant::now();
-        scene.validate()?;
-        let settled = pilot::settle(scene)?;
-        let mut integrator = settled.integrator.map_or_else(|| Integrator::new(scene), Ok)?;
-        let guiding = training::train(&mut integrator).because;
+        let Settled { scene, because, depends_on_view, integrator, .. } = learn::settle(scene)?;
         Ok(Self {
-            depends_on_view: settled.is_piloted || guiding.is_some() || integrator.light_cells().is_some(),
-            integrator,
+            integrator: integrator.map_or_else(|| Integrator::new(&scene), Ok)?,
             layer,
-            because: settled.because,
-            guiding,
+            because,
+            depends_on_view,
             pixels_in_memory: PIXELS_IN_MEMORY,
             build_seconds: start.elapsed().as_secs_f64(),
             timed_samples: 0.0,
@@ -139,13 +132,12 @@ impl ReferenceRenderer {
         let settings = &self.integrator.scene().render;
         let guided = self.integrator.guide().is_some();
         let way = self.integrator.light_way();
-        let Reasons { light_choice, light_samples, roulette, .. } = &self.because;
+        let Reasons { light_choice, light_samples, directions, .. } = &self.because;
         let of_choice = light_choice.iter().map(|because| Decision::about_light_choice(way, because));
         let of_lights =
             light_samples.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
-        let of_roulette = roulette.iter().map(|because| Decision::about_roulette(settings.first_roulette(guided), because));
-        let of_directions = self.guiding.iter().map(|because| Decision::about_directions(guided, because));
-        of_choice.chain(of_lights).chain(of_roulette).chain(of_directions).collect()
+        let of_directions = directions.iter().map(|because| Decision::about_directions(guided, because));
+        of_choice.chain(of_lights).chain(of_directions).collect()
     }
 
     /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.
@@ -154,7 +146,7 @@ impl ReferenceRenderer {
     }
 
     /// Shape and material, by their numbers in the scene, of what stops a pixel's samples, with the share of a sample that each stops. Null
-    /// surfaces let a part through. The scene is that of a layer of first surfaces ([`super::layer::layer_scene`]).
+    /// surfaces let a part through. The scene is that of a layer of first surfaces ([`crate::reference::layer::layer_scene`]).
     pub fn owners(&self, x: u32, y: u32, points: &[SequencePoint]) -> Vec<([usize; 2], f64)> {
         let Scene { film, render, .. } = self.integrator.scene();
         let (sampling, pixel) = (Sampling::from(render), y.wrapping_mul(film.size[0]).wrapping_add(x));

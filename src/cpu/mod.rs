@@ -1,0 +1,7 @@
+//! The CPU as a device: the reference integrator renders films.
+
+mod clamp;
+mod film;
+mod renderer;
+
+pub use renderer::ReferenceRenderer;

@@ -1,0 +1,66 @@
+//! Everything that is learned about a scene, once, before the scene is fitted to a device.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::reasons::Reasons;
+use super::trial::{self, Chosen};
+use super::{guide, guide::Learned};
+use crate::reference::Integrator;
+use crate::renderer::RenderError;
+use crate::sampling::light_way::MANY_LIGHTS;
+use crate::sampling::{Guide, LightCells};
+use crate::scene::{Guiding, LightChoice, Scene};
+
+/// A scene with complete settings, and what was learned about it.
+pub struct Settled<'a> {
+    /// The scene; its settings leave nothing open.
+    pub scene: Cow<'a, Scene>,
+    /// Reasons for the settings that were open.
+    pub because: Reasons,
+    /// Lists of the lights that reach each cell, where lights are chosen by cells.
+    pub light_cells: Option<Arc<LightCells>>,
+    /// The guide of paths; None where paths are not guided.
+    pub guide: Option<Arc<Guide>>,
+    /// Paths were traced to learn, so that another camera may learn something else.
+    pub depends_on_view: bool,
+    /// The scene made ready for tracing paths, with all that was learned, where learning needed it.
+    pub integrator: Option<Integrator>,
+    /// Cells of lights were chosen by learning, not by the scene.
+    chose_cells: bool,
+}
+
+/// Chooses what the scene's settings leave open, and learns what its paths are to know.
+///
+/// # Errors
+/// [`RenderError`] for a scene that is not valid or that the reference cannot render.
+pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
+    scene.validate()?;
+    let was_open = scene.render.light_choice == LightChoice::Auto;
+    let Chosen { scene, mut because, was_tried, mut integrator } = trial::choose(scene)?;
+    let light_cells = integrator.as_ref().and_then(|integrator| integrator.light_cells().cloned());
+    let mut guide = None;
+    if scene.render.guiding != Guiding::Off {
+        let mut ready = integrator.map_or_else(|| Integrator::new(&scene), Ok)?;
+        Learned { guide, because: because.directions } = guide::train(&mut ready);
+        integrator = Some(ready);
+    }
+    let depends_on_view = was_tried || because.directions.is_some() || light_cells.is_some();
+    let chose_cells = was_open && light_cells.is_some();
+    Ok(Settled { scene, because, light_cells, guide, depends_on_view, integrator, chose_cells })
+}
+
+impl Settled<'_> {
+    /// Gives up cells of lights, for a device on which they have no room, where nobody asked for them: `local_lights` inside
+    /// the scene are then chosen by a tree, or by power where they are few. Returns whether there were cells to give up.
+    pub fn gives_up_cells(&mut self, local_lights: usize) -> bool {
+        if !std::mem::take(&mut self.chose_cells) {
+            return false;
+        }
+        let choice = if local_lights < MANY_LIGHTS { LightChoice::Power } else { LightChoice::Tree };
+        self.scene.to_mut().render.light_choice = choice;
+        self.because.light_choice = Some("cells of lights do not fit the device".to_owned());
+        self.light_cells = None;
+        true
+    }
+}

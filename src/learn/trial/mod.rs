@@ -1,0 +1,328 @@
+//! Settings for drawing from lights, where the scene leaves them open: a trial run renders some pixels and compares error times cost.
+//!
+//! A trial run decides whether few lights are chosen by cells, how many light samples the first surfaces take, and whether points
+//! on rectangles and triangles are drawn by solid angle ([`LightSampling::Auto`]). All ways are tried with the same paths, so they
+//! differ by the noise of direct light alone. Random numbers are not those of the picture. Cost is counted, in rays, and not timed.
+//! So the choice depends on the scene, its settings and the size of its film: not on the seed, the number of samples, the device
+//! or the machine. Parts of a picture that are rendered on different devices therefore share one choice.
+
+mod cost;
+mod guiding;
+mod rays;
+mod sum;
+mod tried;
+mod unguided;
+mod watched;
+
+use std::borrow::Cow;
+
+use super::extent::{has_few_pixels, has_many_triangles, pixel_count};
+use super::light_cells::{self, LightsSettled};
+use super::reasons::Reasons;
+use super::work_of_path;
+use crate::reference::Integrator;
+use crate::reference::intersect::Outline;
+use crate::reference::work;
+use crate::renderer::RenderError;
+use crate::sampling::light_way::LightWay;
+use crate::scene::settings::MOST_LIGHT_SAMPLES;
+use crate::scene::{Estimator, FEW_PRIMITIVES, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
+use cost::costs;
+pub use guiding::{loss_with_guide, why_no_guide};
+use rays::Rays;
+use tried::{Found, InView};
+
+/// Gain that a way needs over a simpler one to be chosen: less is noise of the trial run.
+const LEAST_GAIN: f64 = 1.06;
+/// First surfaces of a path at which several light samples are tried.
+const MOST_DEPTH: u32 = 2;
+/// Numbers, each twice the one before, that are tried after the best one.
+const MOST_IN_VAIN: u32 = 2;
+/// One of so many pixels is tried, within these numbers.
+const ONE_OF_PIXELS: u64 = 1 << 10;
+const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
+
+/// Work of the first way that is tried, at most, and work after which no further way is: so that a trial run takes seconds,
+/// whatever the scene.
+const MOST_WORK_OF_WAY: f64 = 8.0 * work::SECOND as f64;
+const MOST_WORK: u64 = 32 * work::SECOND;
+
+/// A scene whose settings say how lights are drawn from.
+pub struct Chosen<'a> {
+    /// The scene with complete settings.
+    pub scene: Cow<'a, Scene>,
+    /// Reasons for the settings that were open.
+    pub because: Reasons,
+    /// Paths were traced to find out.
+    pub was_tried: bool,
+    /// The scene made ready, where that was needed to find out.
+    pub integrator: Option<Integrator>,
+}
+
+/// Settings that the scene leaves open.
+#[derive(Clone, Copy, PartialEq)]
+struct Open {
+    /// Cells of lights were learned, and whether lights are chosen by them is open.
+    light_choice: bool,
+    light_samples: bool,
+    light_sampling: bool,
+}
+
+impl Open {
+    fn of(settings: &RenderSettings, light_choice: bool) -> Self {
+        Self {
+            light_choice,
+            light_samples: settings.light_samples == NumberOrAuto::Auto,
+            light_sampling: settings.light_sampling == LightSampling::Auto,
+        }
+    }
+
+    fn is_any(self) -> bool {
+        self.light_choice || self.light_samples || self.light_sampling
+    }
+
+    /// One reason for all open settings.
+    fn reasons(self, because: &str) -> Reasons {
+        let because = |is_open: bool| is_open.then(|| because.to_owned());
+        Reasons { light_choice: because(self.light_choice), light_samples: because(self.light_samples), ..Reasons::default() }
+    }
+}
+
+/// Chooses what the scene's settings leave open. A scene whose settings are complete stays as it is.
+///
+/// # Errors
+/// [`RenderError`] for a scene that the reference cannot render.
+pub fn choose(scene: &Scene) -> Result<Chosen<'_>, RenderError> {
+    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene)?;
+    let mut chosen = match scene {
+        Cow::Borrowed(scene) => choose_the_rest(scene, integrator, is_undecided)?,
+        Cow::Owned(scene) => {
+            let chosen = choose_the_rest(&scene, integrator, is_undecided)?;
+            Chosen { scene: Cow::Owned(chosen.scene.into_owned()), ..chosen }
+        }
+    };
+    chosen.was_tried |= because.is_some();
+    chosen.because.light_choice = chosen.because.light_choice.or(because);
+    Ok(chosen)
+}
+
+/// Chooses what is open after lights were tried; `has_cells`: cells of lights were learned and may be chosen.
+fn choose_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: bool) -> Result<Chosen<'_>, RenderError> {
+    let mut open = Open::of(&scene.render, has_cells);
+    let as_it_is = |integrator, because| Chosen { scene: Cow::Borrowed(scene), because, was_tried: false, integrator };
+    if !open.is_any() {
+        return Ok(as_it_is(integrator, Reasons::default()));
+    }
+    // Settings that stay open mean one light sample, and the area of flat lights.
+    if let Some(because) = not_worth_trying(scene) {
+        return Ok(as_it_is(integrator, open.reasons(because)));
+    }
+    let mut trial = TrialRun::new(scene, integrator)?;
+    let of_path = work_of_path::of_path(&trial.integrator);
+    if of_path * Found::paths(trial.pixels) > MOST_WORK_OF_WAY {
+        let because = too_much_work("a trial run", of_path);
+        let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };
+        return Ok(as_it_is(Some(trial.integrator), reasons));
+    }
+    open.light_sampling &= trial.costliest_outline.is_some();
+    if !open.is_any() {
+        return Ok(as_it_is(Some(trial.integrator), Reasons::default()));
+    }
+    let because = try_ways(&mut trial, open);
+    trial.integrator.set_light_choice(trial.settings.light_choice);
+    trial.integrator.set_light_sampling(&trial.settings);
+    Ok(Chosen {
+        scene: Cow::Owned(Scene { render: trial.settings, ..scene.clone() }),
+        because,
+        was_tried: true,
+        integrator: Some(trial.integrator),
+    })
+}
+
+/// Why nothing is tried where paths take so much.
+pub fn too_much_work(what: &str, of_path: f64) -> String {
+    format!("{what} takes too long where a path takes {of_path:.1e} tests of what it may meet")
+}
+
+/// Why nothing is tried, if so.
+fn not_worth_trying(scene: &Scene) -> Option<&'static str> {
+    if scene.render.estimator == Estimator::Bsdf {
+        return Some("no light is sampled");
+    }
+    if !scene.has_light() {
+        return Some("there is no light");
+    }
+    if scene.render.max_depth == 1 {
+        return Some("paths have no second edge");
+    }
+    if has_few_pixels(scene) {
+        return Some("a trial run takes too long for so few pixels");
+    }
+    has_many_triangles(scene).then_some("a trial run takes too long for so many triangles")
+}
+
+/// How many pixels are tried.
+fn tried_pixels(scene: &Scene) -> u32 {
+    let [fewest, most] = TRIED_PIXELS;
+    (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32
+}
+
+/// Tries ways to draw from lights, and leaves the best one in the settings of the trial run. Returns the reasons.
+fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
+    let light_choice = if open.light_choice { LightChoice::Power } else { trial.settings.light_choice };
+    let first = Tried { light_choice, sampling: trial.settings.light_sampling, samples: [1, 1], loss: 1.0 };
+    let simplest = trial.try_way(first);
+    if !simplest.has_noise() {
+        trial.settings = trial.way(first);
+        return open.reasons("a trial run found no noise");
+    }
+    let in_view = InView::new(&mut trial.integrator, trial.pixels);
+    let (mut chosen, mut best, mut loss_by_cells) = (first, first, 1.0);
+    // An environment of one colour is no light that is sampled.
+    let samples_lights = simplest.rays().shadow > 0.0;
+    if samples_lights {
+        if open.light_choice && trial.spent <= MOST_WORK {
+            let by_cells = Tried { light_choice: LightChoice::Cells, ..first };
+            loss_by_cells = trial.try_way(by_cells).loss_of_outliers_over(&simplest, &in_view);
+            if loss_by_cells * LEAST_GAIN < first.loss {
+                chosen = Tried { loss: loss_by_cells, ..by_cells };
+            }
+        }
+        best = best_way(trial, chosen, open, (&simplest, &in_view));
+    }
+    trial.settings = trial.way(best);
+    let found =
+        |what: String| if samples_lights { format!("a trial run found {what}") } else { "no light is sampled".to_owned() };
+    let of_choice = || found(format!("that cells of lights have {loss_by_cells:.2} of the error × cost of power"));
+    let of_samples = || found(format!("{:.2} of the error × cost of one light sample", best.loss / chosen.loss));
+    Reasons {
+        light_choice: open.light_choice.then(of_choice),
+        light_samples: open.light_samples.then(of_samples),
+        ..Reasons::default()
+    }
+}
+
+/// The best way to draw from lights, from a simple one on.
+fn best_way(trial: &mut TrialRun<'_>, simple: Tried, open: Open, beside: (&Found, &InView)) -> Tried {
+    let mut best = simple;
+    if open.light_sampling {
+        best = trial.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
+    }
+    for depth in (1..=most_depth(&trial.settings)).filter(|_| open.light_samples) {
+        let (mut in_vain, fewest) = (0, best.samples[0]);
+        for count in [2, 4, 8, MOST_LIGHT_SAMPLES].into_iter().filter(|&count| count >= fewest) {
+            let better = trial.better(best, Tried { samples: [count, depth], ..best }, beside);
+            in_vain = if better == best { in_vain + 1 } else { 0 };
+            best = better;
+            if in_vain == MOST_IN_VAIN {
+                break;
+            }
+        }
+    }
+    best
+}
+
+/// How many first surfaces of a path can take light samples, up to those that are tried.
+fn most_depth(settings: &RenderSettings) -> u32 {
+    if settings.max_depth == 0 { MOST_DEPTH } else { (settings.max_depth - 1).min(MOST_DEPTH) }
+}
+
+/// A way to draw from lights.
+#[derive(Clone, Copy, PartialEq)]
+struct Tried {
+    light_choice: LightChoice,
+    sampling: LightSampling,
+    /// How many light samples at how many first surfaces.
+    samples: [u32; 2],
+    /// Error times cost, beside that of the simplest way.
+    loss: f64,
+}
+
+struct TrialRun<'a> {
+    integrator: Integrator,
+    scene: &'a Scene,
+    /// The scene's, with what was chosen so far.
+    settings: RenderSettings,
+    /// Geometry is few primitives.
+    is_simple: bool,
+    /// Of lamps that can be drawn from by solid angle.
+    costliest_outline: Option<Outline>,
+    /// Pixels that are tried.
+    pixels: u32,
+    /// Of the first way that was tried.
+    shadow_rays: f64,
+    /// Work of all ways that were tried.
+    spent: u64,
+}
+
+impl<'a> TrialRun<'a> {
+    fn new(scene: &'a Scene, integrator: Option<Integrator>) -> Result<Self, RenderError> {
+        let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
+        let is_simple = integrator.primitive_count() <= FEW_PRIMITIVES;
+        let costliest_outline = integrator.costliest_outline();
+        let pixels = tried_pixels(scene);
+        let settings = scene.render.clone();
+        Ok(Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0, spent: 0 })
+    }
+
+    /// The better of two ways, both beside the simplest.
+    fn better(&mut self, best: Tried, other: Tried, (simplest, in_view): (&Found, &InView)) -> Tried {
+        if self.spent > MOST_WORK {
+            return best;
+        }
+        let loss = self.try_way(other).loss_over(simplest, in_view);
+        if loss * LEAST_GAIN < best.loss { Tried { loss, ..other } } else { best }
+    }
+
+    /// The settings with another way to draw from lights; a number of light samples that is given stays.
+    fn way(&self, Tried { light_choice, sampling, samples: [count, depth], .. }: Tried) -> RenderSettings {
+        let mut settings = RenderSettings { light_choice, light_sampling: sampling, ..self.settings.clone() };
+        if settings.light_samples == NumberOrAuto::Auto {
+            (settings.light_samples, settings.light_samples_depth) = (count.into(), depth);
+        }
+        settings
+    }
+
+    fn set_way(&mut self, tried: Tried) -> RenderSettings {
+        let settings = self.way(tried);
+        self.integrator.set_light_choice(settings.light_choice);
+        self.integrator.set_light_sampling(&settings);
+        settings
+    }
+
+    fn try_way(&mut self, tried: Tried) -> Found {
+        let settings = self.set_way(tried);
+        let mut found = Found::new(&self.integrator, self.pixels);
+        self.spent += found.work;
+        if self.shadow_rays == 0.0 {
+            self.shadow_rays = found.rays().shadow;
+        }
+        found.cost = self.cost(found.rays(), &settings);
+        found
+    }
+
+    /// What rays take, in rays of paths, by what kernels take on software devices, where lanes wait for each other.
+    fn cost(&self, rays: Rays, settings: &RenderSettings) -> f64 {
+        // Where a lane goes on to its next path by itself, all wait for one that is at its first surface.
+        let light_samples =
+            if self.is_simple { f64::from(settings.several_light_samples()[0]) * self.shadow_rays } else { rays.shadow };
+        rays.path + self.cost_of_light_sample(settings) * light_samples
+    }
+
+    fn cost_of_light_sample(&self, settings: &RenderSettings) -> f64 {
+        let by_solid_angle =
+            settings.light_sampling == LightSampling::Cone && self.scene.render.light_sampling == LightSampling::Auto;
+        let costs = costs(self.is_simple);
+        let of_point = match self.costliest_outline.filter(|_| by_solid_angle) {
+            None => 0.0,
+            Some(Outline::Rectangle) => costs.of_rectangle,
+            Some(Outline::Triangle) => costs.of_triangle,
+        };
+        let of_choice = match self.integrator.light_way() {
+            LightWay::Power => 0.0,
+            LightWay::Tree => costs.tree_of_lights,
+            LightWay::Cells => costs.cells_of_lights,
+        };
+        costs.light_sample + of_choice + of_point
+    }
+}
