@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::reference::ReferenceRenderer;
+use gpt::cpu::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 use sha2::{Digest as _, Sha256};
