@@ -10,7 +10,7 @@ enable wgpu_ray_query;
 #import geometry/records.wgsl
 #import geometry/shapes.wgsl
 #import geometry/stored.wgsl
-#import shading/shadow.wgsl
+#import shading/path/shadow.wgsl
 
 // Instances: triangles, opaque, and boxes. An instance's custom data is its first primitive.
 @group(0) @binding(BINDING_ACCELERATION) var acceleration: acceleration_structure;

@@ -9,7 +9,7 @@
 #import geometry/records.wgsl
 #import geometry/stored.wgsl
 #import geometry/constants.wgsl
-#import shading/shadow.wgsl
+#import shading/path/shadow.wgsl
 
 alias StackEntry = u32;
 

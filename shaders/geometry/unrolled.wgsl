@@ -2,7 +2,7 @@
 #import core/math.wgsl
 #import geometry/constants.wgsl
 #import geometry/prepared_ray.wgsl
-#import shading/shadow.wgsl
+#import shading/path/shadow.wgsl
 
 fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     var hit = no_hit(t_max);

@@ -3,8 +3,8 @@
 #import core/math.wgsl
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
-#import shading/coordinates.wgsl
-#import shading/seen.wgsl
+#import shading/texture/coordinates.wgsl
+#import shading/material/seen.wgsl
 #import shading/shapes.wgsl
 #if INSTANCES
 #import geometry/instance.wgsl
@@ -12,19 +12,19 @@
 #import shading/shape_point.wgsl
 #endif
 #if ATTRIBUTES
-#import shading/attributes.wgsl
+#import shading/texture/attributes.wgsl
 #endif
 #if COAT_NORMALS
-#import shading/tangents.wgsl
+#import shading/texture/tangents.wgsl
 #endif
 #if MOTION
 #import geometry/placed.wgsl
 #endif
 #if NORMAL_MAPS
-#import shading/normal_map.wgsl
+#import shading/texture/normal_map.wgsl
 #endif
 #if NORMAL_SHADOWING
-#import shading/normal_shadowing.wgsl
+#import shading/texture/normal_shadowing.wgsl
 #endif
 
 struct Surface {

@@ -3,7 +3,7 @@
 #import core/layout.wgsl
 #import geometry/software/lanes.wgsl
 #import core/parameters.wgsl
-#import shading/path.wgsl
+#import shading/path/path.wgsl
 #import stages/film.wgsl
 #import stages/fused_pixels.wgsl
 #import stages/fused_vertex.wgsl

@@ -1,7 +1,7 @@
 // Which pixels an invocation of a fused kernel has.
 #import core/camera.wgsl
 #import core/parameters.wgsl
-#import shading/path.wgsl
+#import shading/path/path.wgsl
 #if MOTION
 #import geometry/motion.wgsl
 #endif

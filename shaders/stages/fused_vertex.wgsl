@@ -6,8 +6,8 @@
 #import geometry/software/lanes.wgsl
 #import geometry/software/packet.wgsl
 #endif
-#import shading/path.wgsl
-#import shading/trace.wgsl
+#import shading/path/path.wgsl
+#import shading/path/trace.wgsl
 
 // Whether the condition holds for any of the paths that are traced side by side.
 fn any_path(condition: bool) -> bool {

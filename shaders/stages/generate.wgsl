@@ -2,7 +2,7 @@
 #import core/layout.wgsl
 #import core/camera.wgsl
 #import core/parameters.wgsl
-#import shading/path.wgsl
+#import shading/path/path.wgsl
 #import stages/wavefront.wgsl
 #if PIXEL_LIST
 #import stages/statistics.wgsl

@@ -4,7 +4,7 @@
 #if MOTION
 #import geometry/motion.wgsl
 #endif
-#import shading/path.wgsl
+#import shading/path/path.wgsl
 #import stages/queue.wgsl
 #import stages/wavefront.wgsl
 

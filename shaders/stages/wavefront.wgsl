@@ -2,7 +2,7 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
-#import shading/path.wgsl
+#import shading/path/path.wgsl
 #if MOTION
 #import geometry/motion.wgsl
 #endif

@@ -4,10 +4,10 @@ use crate::packed::light::LightKind;
 use crate::scene::light::light_table;
 
 /// Name under which kernels import the dispatch of delta lights.
-pub const DELTA_FILE: &str = "shading/delta_lights.wgsl";
+pub const DELTA_FILE: &str = "shading/light/delta_lights.wgsl";
 
 /// Name under which kernels import the light from outside the scene.
-pub const OUTSIDE_FILE: &str = "shading/outside.wgsl";
+pub const OUTSIDE_FILE: &str = "shading/light/outside.wgsl";
 
 /// The text of [`DELTA_FILE`]. A delta light `NAME` has the function `sample_NAME_light`; only those that the plan turns on are compiled.
 pub fn delta_wgsl() -> String {
@@ -15,11 +15,11 @@ pub fn delta_wgsl() -> String {
     let mut cases = String::new();
     for (kind, file) in LightKind::DELTA.iter().filter_map(|kind| Some((kind, kind.file()?))) {
         let switch = kind.number_name();
-        text += &format!("#if {switch}\n#import shading/light/{file}.wgsl\n#endif\n");
+        text += &format!("#if {switch}\n#import shading/light/kind/{file}.wgsl\n#endif\n");
         cases +=
             &format!("#if {switch}\n        case {switch}: {{ return sample_{file}_light(light, reference, pmf); }}\n#endif\n");
     }
-    text += "#import core/layout.wgsl\n#import shading/light_sample.wgsl\n\n";
+    text += "#import core/layout.wgsl\n#import shading/light/light_sample.wgsl\n\n";
     text += "// What arrives at `reference` from a delta light of this kind, over the probability `pmf` of the light.\n";
     text += "fn sample_delta_light(kind: u32, light: u32, reference: vec3<f32>, pmf: f32) -> LightSample {\n    switch kind {\n";
     text + &cases + "        default: { return no_light(); }\n    }\n}\n"
@@ -36,11 +36,11 @@ light_table!(outside);
 /// The text of [`OUTSIDE_FILE`]. A light `NAME` has the functions `NAME_radiance`, `NAME_pdf` and `sample_NAME`. One of them is compiled; where
 /// the plan turns none on, the radiance is the same from everywhere.
 pub fn outside_wgsl() -> String {
-    let mut text = "// Written by src/plan/lights.rs.\n#import shading/environment_sample.wgsl\n".to_owned();
+    let mut text = "// Written by src/plan/lights.rs.\n#import shading/light/environment_sample.wgsl\n".to_owned();
     for (name, switch) in OUTSIDE {
-        text += &format!("#if {switch}\n#import shading/light/{name}.wgsl\n#endif\n");
+        text += &format!("#if {switch}\n#import shading/light/kind/{name}.wgsl\n#endif\n");
     }
-    text += "#import shading/constant_environment.wgsl\n";
+    text += "#import shading/light/constant_environment.wgsl\n";
     text += "\n// Radiance that arrives against a direction.\n";
     text += &choice("outside_radiance(wi: vec3<f32>) -> vec3<f32>", |name| format!("{name}_radiance(wi)"));
     text += "\n// Density of sample_outside, per steradian.\n";

@@ -3,13 +3,13 @@
 use crate::scene::{LobeKind, LobeSupport};
 
 /// Name under which kernels import it.
-pub const FILE: &str = "shading/lobes.wgsl";
+pub const FILE: &str = "shading/material/lobes.wgsl";
 
 /// The file's text. A lobe `NAME` has the functions `NAME_sampling_weight` and `sample_NAME`, and unless it is a delta
 /// `NAME_is_non_delta` and `evaluate_NAME`; only lobes that the plan turns on are compiled.
 pub fn wgsl() -> String {
     let mut text = "// Written by src/plan/lobes.rs.\n".to_owned();
-    for import in ["core/layout.wgsl", "shading/lobe.wgsl", "shading/scattering.wgsl", "shading/surface.wgsl"] {
+    for import in ["core/layout.wgsl", "shading/material/lobe.wgsl", "shading/material/scattering.wgsl", "shading/surface.wgsl"] {
         text += &format!("#import {import}\n");
     }
     for lobe in LobeKind::ALL {

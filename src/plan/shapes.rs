@@ -45,7 +45,7 @@ pub fn geometry_wgsl() -> String {
 /// it is infinite, `NAME_direction_pdf`; and where texture coordinates come from its normal, `NAME_attribute` and `NAME_tangents`.
 pub fn shading_wgsl() -> String {
     let mut text = "// Written by src/plan/shapes.rs.\n#import core/layout.wgsl\n#import core/math.wgsl\n".to_owned();
-    text += "#import geometry/prepared_ray.wgsl\n#import shading/shape_point.wgsl\n#if ATTRIBUTES\n#import shading/attributes.wgsl\n#endif\n";
+    text += "#import geometry/prepared_ray.wgsl\n#import shading/shape_point.wgsl\n#if ATTRIBUTES\n#import shading/texture/attributes.wgsl\n#endif\n";
     for kind in all() {
         text += &format!("#if {}\n#import shading/shape/{}.wgsl\n#endif\n", kind.switch(), kind.file());
     }

@@ -5,7 +5,7 @@ use crate::shader::shared::shared_constants;
 shared_constants!(constants {
     /// Vertices that are written down; of longer paths the rest is not seen.
     pub const TRACED_VERTICES: u32 = 64;
-    /// vec4s of a vertex; `shaders/shading/trace.wgsl` says what they hold.
+    /// vec4s of a vertex; `shaders/shading/path/trace.wgsl` says what they hold.
     pub const TRACE_WORDS: u32 = 10;
     // What is known of a vertex, a bit each.
     pub const TRACED_VERTEX: u32 = 1;

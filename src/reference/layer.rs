@@ -1,4 +1,4 @@
-//! Layers beside the picture, by watching paths: `shaders/shading/layer.wgsl` and `surface_layer.wgsl` are the same on the device.
+//! Layers beside the picture, by watching paths: `shaders/shading/path/layer.wgsl` and `surface_layer.wgsl` are the same on the device.
 
 use std::borrow::Cow;
 

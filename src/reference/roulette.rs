@@ -3,7 +3,7 @@
 //! Without a guide a path goes on by its throughput. With one, throughput says little: a direction that the guide prefers is drawn with a high density, so the
 //! throughput behind it is low although it leads to the light. There a path goes on by what it is expected to bring yet, beside what it was
 //! expected to bring at its first guided surface (adjoint-driven roulette, Vorba and Křivánek 2016): the guide knows what surfaces send on.
-//! `shaders/shading/roulette.wgsl` is the same in f32.
+//! `shaders/shading/path/roulette.wgsl` is the same in f32.
 
 use glam::DVec3;
 

@@ -19,7 +19,7 @@
 #import geometry/software/packet_stack.wgsl
 #import geometry/stored.wgsl
 #import geometry/traversal.wgsl
-#import shading/shadow.wgsl
+#import shading/path/shadow.wgsl
 
 // The key of a child that no ray meets: the bits of INFINITY_DISTANCE but for the last two.
 const MISSED: u32 = 0x7f61b1e4u;

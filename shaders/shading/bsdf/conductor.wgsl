@@ -1,9 +1,9 @@
 // Metals, rough or smooth.
 #import core/layout.wgsl
 #import core/math.wgsl
-#import shading/lobe.wgsl
-#import shading/microfacet.wgsl
-#import shading/scattering.wgsl
+#import shading/material/lobe.wgsl
+#import shading/microfacet/microfacet.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

@@ -1,8 +1,8 @@
 // The diffuse lobe.
 #import core/math.wgsl
-#import shading/hemisphere.wgsl
-#import shading/lobe.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/hemisphere.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

@@ -1,7 +1,7 @@
 // Smooth glass, a delta lobe: a reflected and a refracted direction.
-#import shading/dielectric.wgsl
-#import shading/lobe.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/dielectric.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/scattering.wgsl
 #import shading/surface.wgsl
 
 fn glass_sampling_weight(lobe: Lobe) -> f32 {

@@ -1,8 +1,8 @@
 // A cosine-power lobe about the mirror direction.
 #import core/math.wgsl
-#import shading/cosine_power.wgsl
-#import shading/lobe.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/cosine_power.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

@@ -1,7 +1,7 @@
 // The perfect mirror, a delta lobe.
 #import core/math.wgsl
-#import shading/lobe.wgsl
-#import shading/scattering.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

@@ -1,6 +1,6 @@
 // The surface that is not there: rays go straight on.
-#import shading/lobe.wgsl
-#import shading/scattering.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/scattering.wgsl
 #import shading/surface.wgsl
 
 fn null_sampling_weight(lobe: Lobe) -> f32 {

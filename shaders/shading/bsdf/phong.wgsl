@@ -1,9 +1,9 @@
 // The modified Phong model: a diffuse lobe and a cosine-power lobe about the mirror direction.
 #import core/math.wgsl
-#import shading/cosine_power.wgsl
-#import shading/hemisphere.wgsl
-#import shading/lobe.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/cosine_power.wgsl
+#import shading/microfacet/hemisphere.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

@@ -1,9 +1,9 @@
 // Rough glass after Honsdorf: cosine-power lobes about the mirrored and the refracted direction.
-#import shading/cosine_power.wgsl
-#import shading/dielectric.wgsl
-#import shading/fresnel.wgsl
-#import shading/lobe.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/cosine_power.wgsl
+#import shading/microfacet/dielectric.wgsl
+#import shading/microfacet/fresnel.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

@@ -1,9 +1,9 @@
 // Plastic with a smooth surface: a direction that the boundary reflects, and a diffuse base.
-#import shading/fresnel.wgsl
-#import shading/hemisphere.wgsl
-#import shading/lobe.wgsl
-#import shading/plastic.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/fresnel.wgsl
+#import shading/microfacet/hemisphere.wgsl
+#import shading/material/lobe.wgsl
+#import shading/microfacet/plastic.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

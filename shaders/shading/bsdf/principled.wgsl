@@ -4,20 +4,20 @@
 // own normal map has here, its scale above and below 0, and what the map of the anisotropy's directions has.
 #import core/layout.wgsl
 #import core/math.wgsl
-#import shading/coat.wgsl
-#import shading/dielectric.wgsl
-#import shading/fresnel.wgsl
-#import shading/hemisphere.wgsl
-#import shading/lobe.wgsl
-#import shading/microfacet.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/coat.wgsl
+#import shading/microfacet/dielectric.wgsl
+#import shading/microfacet/fresnel.wgsl
+#import shading/microfacet/hemisphere.wgsl
+#import shading/material/lobe.wgsl
+#import shading/microfacet/microfacet.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 #if COMPENSATION
-#import shading/albedo.wgsl
+#import shading/microfacet/albedo.wgsl
 #endif
 #if SHEEN
-#import shading/sheen.wgsl
+#import shading/microfacet/sheen.wgsl
 #endif
 
 // Largest share of the base's samples that the reflection takes, and least share of those of a reflection that there is.

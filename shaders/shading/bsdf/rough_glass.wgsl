@@ -1,10 +1,10 @@
 // Rough glass of microfacets.
 #import core/math.wgsl
-#import shading/dielectric.wgsl
-#import shading/fresnel.wgsl
-#import shading/lobe.wgsl
-#import shading/microfacet.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/dielectric.wgsl
+#import shading/microfacet/fresnel.wgsl
+#import shading/material/lobe.wgsl
+#import shading/microfacet/microfacet.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

@@ -2,12 +2,12 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/scene.wgsl
-#import shading/fresnel.wgsl
-#import shading/hemisphere.wgsl
-#import shading/lobe.wgsl
-#import shading/microfacet.wgsl
-#import shading/plastic.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/fresnel.wgsl
+#import shading/microfacet/hemisphere.wgsl
+#import shading/material/lobe.wgsl
+#import shading/microfacet/microfacet.wgsl
+#import shading/microfacet/plastic.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

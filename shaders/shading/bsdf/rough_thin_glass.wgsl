@@ -1,10 +1,10 @@
 // A thin plate of glass whose microfacets lie alike on both sides: what one lets through goes where its reflection would, mirrored in the
 // surface.
 #import core/math.wgsl
-#import shading/dielectric.wgsl
-#import shading/lobe.wgsl
-#import shading/microfacet.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/dielectric.wgsl
+#import shading/material/lobe.wgsl
+#import shading/microfacet/microfacet.wgsl
+#import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 

@@ -1,7 +1,7 @@
 // A smooth plate of glass, a delta lobe: a reflected direction and the one straight on.
-#import shading/dielectric.wgsl
-#import shading/lobe.wgsl
-#import shading/scattering.wgsl
+#import shading/microfacet/dielectric.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/scattering.wgsl
 #import shading/surface.wgsl
 
 fn thin_glass_sampling_weight(lobe: Lobe) -> f32 {

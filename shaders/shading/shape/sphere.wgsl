@@ -1,4 +1,4 @@
-// Points of spheres. Directions to those that are lights: shading/sphere_light.wgsl.
+// Points of spheres. Directions to those that are lights: shading/light/sphere_light.wgsl.
 #import core/math.wgsl
 #import geometry/shape/sphere.wgsl
 #import geometry/prepared_ray.wgsl
@@ -6,13 +6,13 @@
 #if ATTRIBUTES
 #import core/layout.wgsl
 #import geometry/records.wgsl
-#import shading/attributes.wgsl
+#import shading/texture/attributes.wgsl
 #endif
 #if MOTION
 #import geometry/motion.wgsl
 #endif
 #if SPHERE_LIGHTS
-#import shading/sphere_light.wgsl
+#import shading/light/sphere_light.wgsl
 #endif
 
 fn sphere_point(ray: Ray, hit: Hit, center: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>) -> ShapePoint {

@@ -102,7 +102,7 @@ pub fn constants() -> Constants {
     kinds.chain(flags()).collect()
 }
 
-/// 80 bytes, the layout of `light_word` in `shaders/shading/light_record.wgsl`.
+/// 80 bytes, the layout of `light_word` in `shaders/shading/light/record.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedLight {

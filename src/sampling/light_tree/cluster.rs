@@ -68,7 +68,7 @@ impl LightCluster {
         }
     }
 
-    /// As `cluster_seen` in `shaders/shading/light_tree.wgsl`.
+    /// As `cluster_seen` in `shaders/shading/light/tree.wgsl`.
     fn seen(&self, point: DVec3) -> Seen {
         let away = point - DVec3::from(self.center.map(f64::from));
         let (power, radius) = (f64::from(self.power), f64::from(self.radius));

@@ -204,7 +204,7 @@ impl Kernel<'_> {
         Ok(())
     }
 
-    /// shading/bsdf.wgsl, blend.wgsl: what a surface emits and how it scatters.
+    /// shading/material/bsdf.wgsl, blend.wgsl: what a surface emits and how it scatters.
     fn material(&self, material: u32) -> Read<()> {
         if !self.is_new(Part::Material, material) {
             return Ok(());
@@ -269,13 +269,13 @@ impl Kernel<'_> {
         if texture == NONE { Ok(()) } else { self.texture(texture) }
     }
 
-    /// shading/blend_weight.wgsl
+    /// shading/material/blend_weight.wgsl
     fn weight(&self, weight: u32) -> Read<()> {
         let words = self.table(self.tables.first_blend_weight.wrapping_add(weight))?;
         if words[0] & 255 == 4 { self.texture(words[3]) } else { Ok(()) }
     }
 
-    /// shading/texture.wgsl; kernels without textures have no code for them.
+    /// shading/texture/texture.wgsl; kernels without textures have no code for them.
     fn texture(&self, texture: u32) -> Read<()> {
         if self.scene.textures.textures.is_empty() || !self.is_new(Part::Texture, texture) {
             return Ok(());
@@ -325,7 +325,7 @@ impl Kernel<'_> {
         self.table(self.tables.first_light.wrapping_add(light.wrapping_mul(5)).wrapping_add(word))
     }
 
-    /// shading/light.wgsl: every entry of the alias table, and the light that it leads to.
+    /// shading/light/sampling.wgsl: every entry of the alias table, and the light that it leads to.
     fn lights(&self) -> Read<()> {
         for entry in 0..self.scene.lights.len() as u32 {
             let alias = self.light_word(entry, 0)?[2];
@@ -354,7 +354,7 @@ impl Kernel<'_> {
         Ok(())
     }
 
-    /// shading/light_tree.wgsl: every way down, and the choice among lights at infinity.
+    /// shading/light/tree.wgsl: every way down, and the choice among lights at infinity.
     fn light_tree(&self) -> Read<()> {
         let mut to_visit = vec![0_u32];
         while let Some(node) = to_visit.pop() {
@@ -376,7 +376,7 @@ impl Kernel<'_> {
         })
     }
 
-    /// shading/light_cells.wgsl: every box, every slot of its cell, and the choice by power.
+    /// shading/light/cells.wgsl: every box, every slot of its cell, and the choice by power.
     fn light_cells(&self) -> Read<()> {
         let word = |index: u32| {
             self.step()?;
@@ -403,7 +403,7 @@ impl Kernel<'_> {
         })
     }
 
-    /// shading/light/environment.wgsl: every node that some point of the square leads to, and every cell and texel.
+    /// shading/light/kind/environment.wgsl: every node that some point of the square leads to, and every cell and texel.
     fn map(&self, map: &PackedMap) -> Read<()> {
         for y in [0, map.height.wrapping_sub(1)] {
             for x in [0, map.width.wrapping_sub(1)] {

@@ -36,7 +36,7 @@ pub struct Cylinder {
     second: DVec3,
 }
 
-/// What shadow rays of devices allow for beside the error of points: errors of directions, and of their length (`shaders/shading/light_sample.wgsl`).
+/// What shadow rays of devices allow for beside the error of points: errors of directions, and of their length (`shaders/shading/light/light_sample.wgsl`).
 const DIRECTION_ERROR: f64 = 2.5e-7;
 const SHADOW_SHORTENING: f64 = 0.999999;
 
@@ -137,7 +137,7 @@ impl Cylinder {
     }
 
     /// Where a device's shadow ray along `way` ends before a point with this normal, as a share of the way: `area_light_sample` in
-    /// `shaders/shading/light.wgsl`.
+    /// `shaders/shading/light/sampling.wgsl`.
     fn end_of_shadow_ray(&self, way: DVec3, normal: DVec3) -> f64 {
         let error = POINT_ERROR * normal.abs().dot(self.from.abs() + self.axis.abs() + self.radius);
         let along_normal = way.dot(normal).abs();

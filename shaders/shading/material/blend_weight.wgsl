@@ -1,0 +1,57 @@
+// What decides the weights of a blend: one vec4 of the tables each,
+//   (kind and flags; value, power or index of refraction; threshold; texture or NONE)
+#import core/layout.wgsl
+#import core/math.wgsl
+#import geometry/scene.wgsl
+#import shading/texture/coordinates.wgsl
+#import shading/material/seen.wgsl
+#if WEIGHTS_BY_ANGLE
+#import shading/microfacet/fresnel.wgsl
+#endif
+#if TEXTURES
+#import shading/texture/texture.wgsl
+#endif
+
+fn blend_weight(index: u32, seen: Seen, uv: TextureCoordinates) -> f32 {
+    let h = tables[FIRST_BLEND_WEIGHT_WORD + index];
+    let flags = bitcast<u32>(h.x);
+    let cosine = seen.cosine;
+    var w = h.y;
+    switch flags & 255u {
+#if WEIGHTS_BY_ANGLE
+        case WEIGHT_FACING: {
+            w = select(pow(cosine, h.y), 0.0, cosine <= 0.0);
+        }
+        case WEIGHT_FRESNEL_SCHLICK: {
+            let r = (h.y - 1.0) / (h.y + 1.0);
+            let away = 1.0 - cosine;
+            let away2 = away * away;
+            w = 1.0 - mix(away2 * away2 * away, 1.0, r * r);
+        }
+        case WEIGHT_FRESNEL_EXACT: {
+            w = fresnel_dielectric(cosine, h.y).transmitted;
+        }
+#endif
+#if WEIGHTS_BY_SIDE
+        case WEIGHT_FRONT: {
+            w = select(0.0, 1.0, seen.front);
+        }
+#endif
+#if WEIGHTS_BY_VIEWER
+        case WEIGHT_CAMERA: {
+            w = select(0.0, 1.0, seen.by_camera);
+        }
+#endif
+#if TEXTURES
+        case WEIGHT_TEXTURE, WEIGHT_CHANNEL: {
+            let color = texture_color(bitcast<u32>(h.w), uv);
+            w = select(luminance(color), h.y * color.x, (flags & 255u) == WEIGHT_CHANNEL);
+        }
+#endif
+        default: {}
+    }
+    w = clamp(w, 0.0, 1.0);
+    w = select(w, 1.0 - w, (flags & REVERSED_WITHIN) != 0u);
+    w = select(w, select(0.0, 1.0, w >= h.z), (flags & THRESHOLDED) != 0u);
+    return select(w, 1.0 - w, (flags & REVERSED) != 0u);
+}

@@ -1,0 +1,200 @@
+// The path step that every kernel shares: what happens where a path's ray ends. src/reference/integrator.rs is the same estimator in f64.
+//
+// A path's vertices are counted from 1, the first surface that the camera sees. Its depth counts edges: 1 is the camera's ray. The two
+// differ where rays go on through null surfaces: such a vertex ends no edge.
+#import core/layout.wgsl
+#import core/math.wgsl
+#import core/sampler.wgsl
+#import shading/material/bsdf.wgsl
+#import shading/light/distant.wgsl
+#import shading/light/hidden_emitters.wgsl
+#import shading/path/layer.wgsl
+#import shading/light/sampling.wgsl
+#import shading/light/light_sample.wgsl
+#import shading/path/mis.wgsl
+#import shading/light/outside.wgsl
+#export shading/path/record.wgsl
+#import shading/path/planted.wgsl
+#import shading/path/roulette.wgsl
+#import shading/path/scatterer.wgsl
+#import shading/material/scattering.wgsl
+#import shading/surface.wgsl
+#import shading/path/trace.wgsl
+#if LAYER_OF_SURFACES
+#export shading/path/surface_layer.wgsl
+#endif
+
+// Weight of emission met by a ray of the given density, where all light samples together have density `pdf_light`.
+fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
+    if pdf_solid_angle < 0.0 || pdf_light == 0.0 {
+        return 1.0;
+    }
+    if HAS_ESTIMATOR_MIS {
+        return mis_weight(pdf_solid_angle, pdf_light);
+    }
+    return select(1.0, 0.0, HAS_ESTIMATOR_NEE);
+}
+
+// Radiance that a path gains where its ray, of this depth, leaves the scene.
+fn escaped_radiance(path: Path, depth: u32) -> Spectrum {
+    if !HAS_ENVIRONMENT || (HAS_HIDDEN_EMITTERS && depth == 1u) {
+        return BLACK;
+    }
+    var radiance = path.throughput * outside_radiance(path.ray.direction);
+    var weight = 1.0;
+    // After the camera or a delta lobe no light sample could have found it.
+    if HAS_ENVIRONMENT_SAMPLED && path.pdf_solid_angle >= 0.0 {
+        let ray = ray_from_lit_vertex(path);
+        let of_one = environment_pdf_solid_angle(ray, cell_of_lights(ray.origin, facing_of_lit_vertex(path)));
+        let pdf_light = f32(light_samples_at(depth - 1u)) * of_one;
+        weight = emission_weight(path.pdf_solid_angle, pdf_light);
+        radiance *= weight;
+    }
+    trace_found(radiance, weight);
+    return in_layer(radiance, depth);
+}
+
+// Radiance that a path gains from the emission of a surface that its ray, of this depth, met.
+fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> Spectrum {
+    var radiance = BLACK;
+    if HAS_EMISSION {
+        let emitted = material_emission(surface.material, seen_along(surface, -path.ray.direction), surface.uv);
+        if max_component(emitted) > 0.0 {
+            var weight = 1.0;
+            if HAS_LIGHTS {
+                let of_one = light_pdf_solid_angle(ray_from_lit_vertex(path), facing_of_lit_vertex(path), surface);
+                let pdf_light = f32(light_samples_at(depth - 1u)) * of_one;
+                weight = emission_weight(path.pdf_solid_angle, pdf_light);
+            }
+            radiance = path.throughput * emitted * weight;
+            trace_found(radiance, weight);
+            radiance = in_layer(radiance, depth);
+        }
+    }
+    return radiance;
+}
+
+// The point that light sampling looks from.
+fn shading_point(surface: Surface) -> vec3<f32> {
+    return surface.position + surface.error * surface.facing_normal;
+}
+
+// The shadow ray of one of the light samples that a surface takes, chosen by `light_bits`, given the surface's value towards it.
+fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, light_bits: u32, value: BsdfValue) -> ShadowRay {
+    let sampled_from = shading_point(surface);
+    var ray = Ray(sampled_from, light.wi);
+    var ray_length = light.distance;
+    if HAS_NON_DELTA_TRANSMISSION {
+        ray.origin = offset_origin(surface, light.wi);
+        // On the far side the ray begins elsewhere than where light was sampled from, and ends where it would have ended.
+        if dot(light.wi, surface.facing_normal) < 0.0 && light.distance < INFINITY_DISTANCE {
+            let way = sampled_from + light.distance * light.wi - ray.origin;
+            ray_length = length(way);
+            ray.direction = way / ray_length;
+        }
+    }
+    var radiance = path.throughput * value.value * light.radiance * planted_factor(surface.material);
+    radiance *= volume_share(path, surface, light.wi, light.distance);
+    let count = f32(light_samples_at(depth));
+    // Several samples are as dense together as one of as many times its density.
+    let pdf_light = count * light.pdf_solid_angle;
+    var weight = 1.0;
+    if light.pdf_solid_angle >= 0.0 {
+        radiance = radiance / pdf_light;
+        if HAS_ESTIMATOR_MIS {
+            weight = mis_weight(pdf_light, value.pdf_solid_angle);
+            radiance *= weight;
+        }
+    } else {
+        radiance = radiance / count;
+    }
+    let chosen = traced_light(sampled_from, facing_of(surface), light_bits);
+    trace_light(light.wi, pdf_light, radiance, weight, chosen, value.pdf_solid_angle);
+    return ShadowRay(ray, ray_length, in_layer(radiance, depth + 1u));
+}
+
+// The shadow ray of light sample `number`, not the first, of a vertex that takes more.
+fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
+    let depth = depth_at(lit.path, lit.vertex);
+    let light_bits = further_light_bits(lit.path.pixel, lit.path.sample_in_pass, lit.vertex, depth, number);
+    let light = sample_light(shading_point(lit.surface), facing_of(lit.surface), light_bits);
+    let value = evaluate_scatterer(lit.scatterer, lit.surface, -lit.path.ray.direction, light.wi);
+    return shadow_ray(lit.path, lit.surface, depth, light, light_bits.x, value);
+}
+
+#if !LAYER_OF_SURFACES
+// Extends a path whose ray met `hit`, its vertex number `vertex`: replaces `path`, returns what was found.
+fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
+    var incoming = *path;
+    let depth = depth_at(incoming, vertex);
+    let wo = -incoming.ray.direction;
+    var shading = no_shading();
+    if hit.primitive == NONE {
+        incoming.throughput = arriving_throughput(incoming, INFINITY_DISTANCE);
+        trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
+        shading.radiance = escaped_radiance(incoming, depth);
+        return shading;
+    }
+    var surface = hit_surface(incoming.ray, hit);
+#if WEIGHTS_BY_VIEWER
+    surface.by_camera = depth == 1u;
+#endif
+    // A hit in an instance may come without its distance.
+    incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
+    trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
+    trace_surface(surface.position, surface.shading_normal, surface.material);
+    if HAS_HIDDEN_EMITTERS && depth == 1u && gives_light(surface.material) {
+        shading.alive = true;
+        *path = path_behind(incoming, surface);
+        return shading;
+    }
+    shading.radiance = emitted_radiance(incoming, surface, depth);
+
+    // The last edge may go on through null surfaces.
+    let last_edge = depth == MAX_DEPTH;
+    if last_edge && !HAS_NULL_SURFACES {
+        return shading;
+    }
+    let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
+    let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
+    let scatterer = load_scatterer(surface, wo, uniform_float(more_random.w));
+    let samples_light = HAS_LIGHTS && has_non_delta_lobe(scatterer.bsdf) && !last_edge;
+    var light = no_light();
+    if samples_light {
+        light = sample_light(shading_point(surface), facing_of(surface), random);
+    }
+    let scattering = scatter_by(
+        scatterer, surface, wo, samples_light, light.wi, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+    );
+    if samples_light {
+        shading.light_samples = light_samples_at(depth);
+        shading.shadow = shadow_ray(incoming, surface, depth, light, random.x, scattering.towards_light);
+        shading.lit = LitVertex(incoming, vertex, surface, scatterer);
+    }
+
+    let drawn = scattering.drawn;
+    if HAS_NULL_SURFACES && last_edge && !drawn.is_null {
+        return shading;
+    }
+    var throughput = incoming.throughput * drawn.weight * planted_factor(surface.material);
+    if max_component(throughput) <= 0.0 {
+        return shading;
+    }
+    trace_sample(drawn.wi, drawn.pdf_solid_angle, drawn.weight, drawn.eta_scale, drawn.is_null);
+    var roulette_scale = incoming.roulette_scale;
+    if HAS_ROULETTE && !drawn.is_null {
+        let roulette = roulette_at(incoming, scatterer, throughput, drawn.eta_scale, depth);
+        roulette_scale = roulette.scale;
+        if depth >= ROULETTE_DEPTH {
+            trace_roulette(roulette.survival);
+            if uniform_float(more_random.z) >= roulette.survival {
+                return shading;
+            }
+            throughput /= roulette.survival;
+        }
+    }
+    shading.alive = true;
+    *path = extended_path(incoming, surface, drawn, throughput, roulette_scale);
+    return shading;
+}
+#endif

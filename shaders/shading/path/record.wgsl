@@ -1,0 +1,178 @@
+// A path on its way, and what comes of one of its vertices.
+#import core/math.wgsl
+#import shading/path/scatterer.wgsl
+#import shading/material/scattering.wgsl
+#import shading/surface.wgsl
+#if LIGHT_CELLS
+#import shading/cell_grid.wgsl
+#endif
+#if ATTENUATION
+#import shading/path/medium.wgsl
+#endif
+
+struct Path {
+    ray: Ray,
+    throughput: Spectrum,
+    // Density of the ray's direction by solid angle; negative after the camera or a delta lobe.
+    pdf_solid_angle: f32,
+    // What Russian roulette multiplies throughputs by: the squared index ratios of all refractions so far. Of guided paths one over what they were
+    // expected to bring at their first guided surface, 0 before.
+    roulette_scale: f32,
+    // Pixel over the whole film, and the sample's index within the pass.
+    pixel: u32,
+    sample_in_pass: u32,
+    // Vertices at null surfaces so far.
+    null_vertices: u32,
+#if LIGHT_CELLS
+    // Which way the surface faces that light was last sampled from, as normal_facing says.
+    lit_facing: u32,
+#endif
+#if TRANSPARENT_SHADOWS
+    // Where the ray began that went on through the null surfaces last met: light was sampled from there.
+    lit_from: vec3<f32>,
+#endif
+#if ATTENUATION
+    // Of what the ray goes through.
+    extinction: Spectrum,
+#endif
+}
+
+struct ShadowRay {
+    ray: Ray,
+    distance: f32,
+    // What the path gains if nothing is in the way; all 0: there is no shadow ray.
+    radiance: Spectrum,
+}
+
+// What light samples of a vertex start from.
+struct LitVertex {
+    // As it arrived there.
+    path: Path,
+    vertex: u32,
+    surface: Surface,
+    scatterer: Scatterer,
+}
+
+// What comes of a vertex.
+struct Shading {
+    // The path goes on along its new ray.
+    alive: bool,
+    // Radiance found at this vertex, already times throughput and weight.
+    radiance: Spectrum,
+    // How many light samples are taken here; the first one's shadow ray; what further_shadow_ray makes the others of.
+    light_samples: u32,
+    shadow: ShadowRay,
+    lit: LitVertex,
+}
+
+// A path on its first edge.
+fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
+    return Path(
+        ray, WHITE, -1.0, select(1.0, 0.0, HAS_GUIDE), pixel, sample_in_pass, 0u
+#if LIGHT_CELLS
+        , 0u
+#endif
+#if TRANSPARENT_SHADOWS
+        , ray.origin
+#endif
+#if ATTENUATION
+        , BLACK
+#endif
+    );
+}
+
+// The path's ray from where light was last sampled: shadow rays from there meet the same surfaces as the path, and go on through null ones
+// as it does. So what both find is shared out by the densities that they have there.
+fn ray_from_lit_vertex(path: Path) -> Ray {
+#if TRANSPARENT_SHADOWS
+    return Ray(path.lit_from, path.ray.direction);
+#else
+    return path.ray;
+#endif
+}
+
+// Which way a surface faces, where the choice of lights depends on that; else 0.
+fn facing_of(surface: Surface) -> u32 {
+#if LIGHT_CELLS
+    return normal_facing(surface.facing_normal);
+#else
+    return 0u;
+#endif
+}
+
+// The same of the surface from which light was last sampled.
+fn facing_of_lit_vertex(path: Path) -> u32 {
+#if LIGHT_CELLS
+    return path.lit_facing;
+#else
+    return 0u;
+#endif
+}
+
+fn no_shadow_ray() -> ShadowRay {
+    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, BLACK);
+}
+
+// Whether the path may gain anything from it.
+fn is_needed(shadow: ShadowRay) -> bool {
+    return any(shadow.radiance != BLACK);
+}
+
+fn no_shading() -> Shading {
+    var shading: Shading;
+    shading.shadow = no_shadow_ray();
+    return shading;
+}
+
+// Depth of the path's ray that ends at this vertex.
+fn depth_at(path: Path, vertex: u32) -> u32 {
+    return vertex - select(0u, path.null_vertices, HAS_NULL_SURFACES);
+}
+
+// How many light samples a surface takes that a ray of this depth met.
+fn light_samples_at(depth: u32) -> u32 {
+    return select(1u, LIGHT_SAMPLES, depth >= 1u && depth <= LIGHT_SAMPLES_DEPTH);
+}
+
+// The path's throughput at the end of its ray, of this length.
+fn arriving_throughput(path: Path, ray_length: f32) -> Spectrum {
+#if ATTENUATION
+    return path.throughput * volume_transmittance(path.extinction, ray_length);
+#else
+    return path.throughput;
+#endif
+}
+
+// What is left of light that comes to a surface of the path from a light in direction `wi`.
+fn volume_share(path: Path, surface: Surface, wi: vec3<f32>, ray_length: f32) -> Spectrum {
+#if ATTENUATION
+    return volume_transmittance(extinction_towards(surface, wi, path.extinction), ray_length);
+#else
+    return WHITE;
+#endif
+}
+
+// The path along the ray that was drawn where it met a surface.
+fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput: Spectrum, roulette_scale: f32) -> Path {
+    var path = incoming;
+    path.ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
+    path.throughput = throughput;
+    path.pdf_solid_angle = drawn.pdf_solid_angle;
+    path.roulette_scale = roulette_scale;
+    path.null_vertices += select(0u, 1u, drawn.is_null);
+#if LIGHT_CELLS
+    path.lit_facing = select(facing_of(surface), incoming.lit_facing, drawn.is_null);
+#endif
+#if TRANSPARENT_SHADOWS
+    // Through a null surface goes the ray that was drawn before.
+    path.pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);
+    path.lit_from = select(path.ray.origin, incoming.lit_from, drawn.is_null);
+#endif
+#if ATTENUATION
+    // Nothing lies behind a surface that is not there.
+    if !drawn.is_null {
+        path.extinction = extinction_towards(surface, drawn.wi, incoming.extinction);
+    }
+#endif
+    return path;
+}

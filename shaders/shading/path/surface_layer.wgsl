@@ -1,0 +1,82 @@
+// Layers of surfaces: what a render reports in place of radiance, of the first surface that a path meets, or of the first that does not reflect
+// or refract it as a mirror does. src/reference/layer.rs is the same in f64.
+#import core/layout.wgsl
+#import core/math.wgsl
+#import core/parameters.wgsl
+#import core/sampler.wgsl
+#import shading/light/hidden_emitters.wgsl
+#import shading/path/record.wgsl
+#import shading/path/scatterer.wgsl
+#import shading/material/scattering.wgsl
+#import shading/surface.wgsl
+#import shading/path/trace.wgsl
+
+// Stands for the value where nothing is met. Its square is not finite: the film counts no such sample.
+const NOTHING_MET: f32 = 3.0e38;
+
+// Whether the layer is of what is seen along the drawn direction.
+fn is_followed(drawn: BsdfSample) -> bool {
+    let goes_on = drawn.pdf_solid_angle < 0.0 && max_component(drawn.weight) > 0.0;
+#if LAYER_OF_FIRST_SURFACE
+    return goes_on && drawn.is_null;
+#else
+    return goes_on;
+#endif
+}
+
+// Of a surface that a path of this throughput met and that is not followed further.
+fn surface_value(throughput: Spectrum, surface: Surface, drawn: BsdfSample) -> vec3<f32> {
+#if LAYER_ALBEDO
+    return throughput * drawn.weight;
+#endif
+#if LAYER_NORMAL
+    return surface.shading_normal;
+#endif
+#if LAYER_POSITION
+    return surface.position;
+#endif
+#if LAYER_DEPTH
+    return vec3<f32>(dot(surface.position - view.position.xyz, view.forward.xyz));
+#endif
+}
+
+// Follows a path whose ray met `hit`, its vertex number `vertex`, to the surface that the layer is of: replaces `path`, or returns the layer's
+// value as what was found.
+fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
+    var incoming = *path;
+    let wo = -incoming.ray.direction;
+    var shading = no_shading();
+    trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
+    if hit.primitive == NONE {
+        shading.radiance = vec3<f32>(NOTHING_MET);
+        return shading;
+    }
+    var surface = hit_surface(incoming.ray, hit);
+#if WEIGHTS_BY_VIEWER
+    surface.by_camera = depth_at(incoming, vertex) == 1u;
+#endif
+    incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
+    trace_surface(surface.position, surface.shading_normal, surface.material);
+    if HAS_HIDDEN_EMITTERS && depth_at(incoming, vertex) == 1u && gives_light(surface.material) {
+        shading.alive = true;
+        *path = path_behind(incoming, surface);
+        return shading;
+    }
+    var drawn = no_sample();
+    if depth_at(incoming, vertex) < MAX_DEPTH {
+        let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
+        let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
+        let scatterer = load_scatterer(surface, wo, uniform_float(more_random.w));
+        let scattering = scatter_by(
+            scatterer, surface, wo, false, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+        );
+        drawn = scattering.drawn;
+    }
+    if !is_followed(drawn) {
+        shading.radiance = surface_value(incoming.throughput, surface, drawn);
+        return shading;
+    }
+    shading.alive = true;
+    *path = extended_path(incoming, surface, drawn, incoming.throughput * drawn.weight, incoming.roulette_scale);
+    return shading;
+}

@@ -1,0 +1,80 @@
+// What a surface lets through of the light that a shadow ray brings: the weight of its null parts. src/reference/emission.rs looks weights up alike.
+#import core/layout.wgsl
+#import core/math.wgsl
+#import geometry/prepared_ray.wgsl
+#import geometry/records.wgsl
+#import geometry/scene.wgsl
+#import geometry/shapes.wgsl
+#if MOTION
+#import geometry/placed.wgsl
+#endif
+#import shading/surface.wgsl
+#if BLENDS
+#import shading/material/blend.wgsl
+#endif
+
+#if BLENDS
+// The second crossing, before `limit`, of a ray and the primitive that it meets at `hit`; its primitive is NONE where there is none. Groups of
+// instances consist of triangles, which are crossed once.
+fn crossed_again(ray: Ray, hit: Hit, limit: f32) -> Hit {
+    var again = no_hit(limit);
+#if INSTANCES
+    if hit.instance != NONE {
+        return again;
+    }
+#endif
+#if MOTION
+    let placed = placed_primitive(primitive_words(hit.primitive));
+    let words = PrimitiveWords(placed.p0, placed.p1, placed.p2);
+#else
+    let words = primitive_words(hit.primitive);
+#endif
+    let found = intersect_again(prepare_ray(ray), limit, primitive_kind(words.w0.w), words.w0.xyz, words.w1.xyz, words.w2.xyz);
+    if found.x > 0.0 {
+        again = world_hit(found.x, hit.primitive, found.y, found.z);
+    }
+    return again;
+}
+#endif
+
+// The share of light that comes through the primitive that a ray meets at `hit`, and through its far side where that is nearer than `limit`; 0
+// where it is opaque.
+fn hit_transmittance(ray: Ray, hit: Hit, limit: f32) -> f32 {
+    let material = hit_material(hit);
+    var share = 0.0;
+    if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & LETS_THROUGH) != 0u {
+#if BLENDS
+        share = 1.0;
+        var met = hit;
+        for (var crossing = 0; crossing < 2 && met.primitive != NONE; crossing++) {
+            share *= null_weight(hit_surface(ray, met), -ray.direction);
+            if crossing == 0 {
+                met = crossed_again(ray, hit, limit);
+            }
+        }
+#else
+        share = 1.0;
+#endif
+    }
+    return share;
+}
+
+#if BLENDS
+fn is_null_part(run: PartRun, index: u32) -> bool {
+    let material = part_material(run, index);
+    return (bitcast<u32>(tables[material * MATERIAL_WORDS].w) & 255u) == NULL_SURFACES;
+}
+
+// The weights of all null parts of a surface's material, seen along `wo`.
+fn null_weight(surface: Surface, wo: vec3<f32>) -> f32 {
+    let seen = seen_along(surface, wo);
+    let run = part_run(surface.material);
+    var sum = 0.0;
+    for (var index = 0u; index < run.count; index++) {
+        if is_null_part(run, index) {
+            sum += weighted_part(run, index, seen, surface.uv).weight;
+        }
+    }
+    return min(sum, 1.0);
+}
+#endif

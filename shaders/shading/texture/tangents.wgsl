@@ -1,0 +1,17 @@
+// The directions in which texture coordinates of either set grow.
+#import core/layout.wgsl
+#import shading/shape_point.wgsl
+#import shading/shapes.wgsl
+#if SECOND_UVS
+#import shading/texture/attributes.wgsl
+#endif
+
+// `first` may be NONE. Of what has one set of coordinates, the directions of that.
+fn tangents_of_set(kind: u32, first: u32, point: ShapePoint, by_second: bool) -> Tangents {
+#if SECOND_UVS
+    if by_second && first != NONE && kind == KIND_TRIANGLE {
+        return edge_tangents(first + 1u, point.along_u, point.along_v);
+    }
+#endif
+    return shape_tangents(kind, first, point);
+}
