@@ -5,9 +5,9 @@
 
 use std::fmt::Write as _;
 
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::cpu::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 use sha2::{Digest as _, Sha256};

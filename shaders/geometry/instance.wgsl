@@ -5,9 +5,7 @@
 #import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 
 // Stands on a traversal's stack below what is left of a group's tree: from there on the ray is in the world again. No leaf has this entry.
 const LEAVE_INSTANCE: u32 = 0xc0000000u;

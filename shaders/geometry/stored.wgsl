@@ -4,9 +4,7 @@
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
 #import geometry/shapes.wgsl
-#if MOTION
 #import geometry/placed.wgsl
-#endif
 
 // Replaces `hit` where primitive `index`, whose record is `words`, is nearer.
 fn intersect_stored(ray: PreparedRay, index: u32, words: PrimitiveWords, hit: ptr<function, Hit>) {

@@ -2,9 +2,7 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/bvh4.wgsl
-#if INSTANCES
 #import geometry/instance.wgsl
-#endif
 #import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/stored.wgsl

@@ -6,26 +6,14 @@
 #import shading/texture/coordinates.wgsl
 #import shading/material/seen.wgsl
 #import shading/shapes.wgsl
-#if INSTANCES
 #import geometry/instance.wgsl
 #import shading/shape/triangle.wgsl
 #import shading/shape_point.wgsl
-#endif
-#if ATTRIBUTES
 #import shading/texture/attributes.wgsl
-#endif
-#if COAT_NORMALS
 #import shading/texture/tangents.wgsl
-#endif
-#if MOTION
 #import geometry/placed.wgsl
-#endif
-#if NORMAL_MAPS
 #import shading/texture/normal_map.wgsl
-#endif
-#if NORMAL_SHADOWING
 #import shading/texture/normal_shadowing.wgsl
-#endif
 
 struct Surface {
     position: vec3<f32>,

@@ -2,9 +2,7 @@
 #import core/layout.wgsl
 #import core/parameters.wgsl
 #import stages/film.wgsl
-#if PIXEL_LIST
 #import stages/statistics.wgsl
-#endif
 #import stages/wavefront.wgsl
 
 // Reads the paths' radiance. Adds each pixel's samples to the film in a fixed order, so the picture does not depend on the order in

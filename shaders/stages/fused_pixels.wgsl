@@ -2,12 +2,8 @@
 #import core/camera.wgsl
 #import core/parameters.wgsl
 #import shading/path/path.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
-#if PIXEL_LIST
 #import stages/statistics.wgsl
-#endif
 
 struct PassPixel {
     // Over the whole film, and in the band's film.

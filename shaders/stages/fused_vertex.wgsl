@@ -2,10 +2,8 @@
 // the same vertex.
 #import core/math.wgsl
 #import geometry/closest.wgsl
-#if PACKETS
 #import geometry/software/lanes.wgsl
 #import geometry/software/packet.wgsl
-#endif
 #import shading/path/path.wgsl
 #import shading/path/trace.wgsl
 

@@ -4,9 +4,7 @@
 #import core/parameters.wgsl
 #import shading/path/path.wgsl
 #import stages/wavefront.wgsl
-#if PIXEL_LIST
 #import stages/statistics.wgsl
-#endif
 
 // Reads the pass's parameters. Writes every path's state (radiance 0) and puts all slots into queue 0.
 // Leaves hits, shadow rays and counts alone; the host sets the counts of a new pass.

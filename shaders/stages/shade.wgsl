@@ -1,9 +1,7 @@
 // Evaluates the vertices found: emission, next event estimation, the next direction, Russian roulette.
 #import core/layout.wgsl
 #import core/parameters.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 #import shading/path/path.wgsl
 #import stages/queue.wgsl
 #import stages/wavefront.wgsl

@@ -3,9 +3,7 @@
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import shading/path/path.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 
 // Planes of PATH_CAPACITY vec4 each:
 //   ray origin and pixel within the pass (within the band where pixels are listed) | sample in the pass << 24; ray direction and its density; throughput and eta scale;

@@ -41,7 +41,7 @@ pub fn constants(packed: &PackedScene, first: usize, shadows_are_transparent: bo
         let _ = writeln!(any, "    blocked = blocked || ({}).x > 0.0;", test_for(primitive, "t_max"));
     }
     format!(
-        "#import core/layout.wgsl\n#import core/math.wgsl\n#import geometry/prepared_ray.wgsl\n#import geometry/shapes.wgsl\n\n\
+        "#import core/math.wgsl\n#import geometry/prepared_ray.wgsl\n#import geometry/shapes.wgsl\n\n\
          fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {{\n    \
          var best = *hit;\n{closest}    *hit = best;\n}}\n\n\
          fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool {{\n    \

@@ -1,7 +1,8 @@
 //! Joins WGSL files: `#import file`, `#export file` (an import whose names are passed on), `#if SWITCH` / `#if !SWITCH` / `#else` / `#endif`, and a map from lines back to files.
 //!
 //! A file is included once, where it is first imported; lines that `enable` an extension go to the front, where WGSL wants them. Switches
-//! and constants come from the plan, so that a scene's kernels hold only what the scene uses. Code may also read the switch `X` as a constant,
+//! and constants come from the plan, so that a scene's kernels hold only what the scene uses; what their entry points do not reach is left
+//! out ([`super::reach`]). Code may also read the switch `X` as a constant,
 //! `HAS_X`: where both ways are valid WGSL, an `if` that compilers fold reads better than `#if`.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -142,7 +143,14 @@ impl Composer<'_> {
         }
         enables.text.push_str(&out.text);
         enables.origin.extend(out.origin);
-        enables
+        let reached = super::reach::reached_lines(&enables.text);
+        let lines = enables.text.lines().zip(enables.origin).zip(reached).filter(|(_, reached)| *reached);
+        let mut composed = ComposedShader::default();
+        for ((line, origin), _) in lines {
+            composed.text.extend([line, "\n"]);
+            composed.origin.push(origin);
+        }
+        composed
     }
 
     fn find(&self, name: &str) -> Option<(&'static str, String)> {

@@ -1,6 +1,7 @@
 //! The WGSL sources, and how they become the kernels of one plan.
 
 pub mod compose;
+pub mod reach;
 pub mod shared;
 pub mod sources;
 pub mod switches;

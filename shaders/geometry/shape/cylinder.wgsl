@@ -2,9 +2,7 @@
 // and a radius from the axis to where u is 0.
 #import core/layout.wgsl
 #import geometry/prepared_ray.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 
 // Where a ray's line crosses the wall: nearer and farther t and height, as on the wall's whole line; `met` where there are crossings.
 struct CylinderCrossings {

@@ -1,8 +1,6 @@
 // A ray against a disk: (t or -1, 0, 0). The points of its record are its center, its normal and (radius, 0, 0).
 #import geometry/prepared_ray.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 
 fn intersect_disk(ray: PreparedRay, t_max: f32, center: vec3<f32>, normal: vec3<f32>, p2: vec3<f32>) -> vec3<f32> {
     let radius = p2.x;

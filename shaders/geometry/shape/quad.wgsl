@@ -1,9 +1,7 @@
 // A ray against a parallelogram: (t or -1, u, v). The points of its record are a corner and the edges from it.
 #import core/layout.wgsl
 #import geometry/prepared_ray.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 
 fn intersect_quad(ray: PreparedRay, t_max: f32, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> vec3<f32> {
     let p = cross(ray.direction, edge_v);

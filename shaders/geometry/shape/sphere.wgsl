@@ -1,8 +1,6 @@
 // A ray against a sphere: (t or -1, 0, 0). The points of its record are its center and (radius, 0, 0).
 #import geometry/prepared_ray.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 
 // The crossings of a ray's line and the sphere, nearer and farther; not above 0 where there are none. Roots are taken relative to the point of closest
 // approach, which keeps them accurate for small and far spheres (Haines et al., Ray Tracing Gems, chapter 7).

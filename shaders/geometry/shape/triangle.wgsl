@@ -1,8 +1,6 @@
 // A ray against a triangle: (t or -1, weights of the second and third vertex). The points of its record are its vertices.
 #import geometry/prepared_ray.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 
 // a·b - c·d with the sign of the exact value, whether or not fma is fused (Kahan's difference of products).
 fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {

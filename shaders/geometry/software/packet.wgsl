@@ -10,9 +10,7 @@
 #import core/math.wgsl
 #import geometry/bvh4.wgsl
 #import geometry/constants.wgsl
-#if INSTANCES
 #import geometry/instance.wgsl
-#endif
 #import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/software/lanes.wgsl

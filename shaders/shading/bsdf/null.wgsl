@@ -1,4 +1,5 @@
 // The surface that is not there: rays go straight on.
+#import core/spectrum.wgsl
 #import shading/material/lobe.wgsl
 #import shading/material/scattering.wgsl
 #import shading/surface.wgsl

@@ -13,12 +13,8 @@
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
-#if COMPENSATION
 #import shading/microfacet/albedo.wgsl
-#endif
-#if SHEEN
 #import shading/microfacet/sheen.wgsl
-#endif
 
 // Largest share of the base's samples that the reflection takes, and least share of those of a reflection that there is.
 const MOST_REFLECTED: f32 = 0.95;

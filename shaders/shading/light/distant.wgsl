@@ -1,8 +1,6 @@
 // The choice of lights at infinity, whose directions are drawn in more ways than one.
 #import shading/light/record.wgsl
-#if LIGHT_CELLS
 #import shading/light/cells.wgsl
-#endif
 
 // The cell by which lights are chosen at a point of a surface that faces a way, as facing_of says; 0 where they are chosen alike everywhere.
 fn cell_of_lights(point: vec3<f32>, facing: u32) -> u32 {

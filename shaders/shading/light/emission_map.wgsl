@@ -4,12 +4,8 @@
 #import core/math.wgsl
 #import shading/light/record.wgsl
 #import shading/warp.wgsl
-#if SPHERE_LIGHTS_BY_PICTURE
 #import geometry/records.wgsl
-#if MOTION
 #import geometry/motion.wgsl
-#endif
-#endif
 
 // Of a light with LIGHT_WARPED.
 fn light_warp(light: u32) -> Warp {

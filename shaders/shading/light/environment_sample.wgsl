@@ -1,4 +1,5 @@
 // What a direction to the light from outside the scene consists of.
+#import core/spectrum.wgsl
 
 struct EnvironmentSample {
     wi: vec3<f32>,

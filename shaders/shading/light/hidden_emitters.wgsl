@@ -1,5 +1,6 @@
 // Surfaces that give light and are not in the picture: rays of the camera go through them, as through null surfaces.
 #import core/layout.wgsl
+#import core/spectrum.wgsl
 #import geometry/scene.wgsl
 #import shading/path/record.wgsl
 #import shading/material/scattering.wgsl

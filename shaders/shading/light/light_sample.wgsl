@@ -1,4 +1,5 @@
 // What every light sample consists of.
+#import core/spectrum.wgsl
 
 struct LightSample {
     wi: vec3<f32>,

@@ -5,9 +5,7 @@
 #import shading/light/distant.wgsl
 #import shading/light/record.wgsl
 #import shading/shapes.wgsl
-#if SPHERE_LIGHTS
 #import shading/light/sphere_light.wgsl
-#endif
 
 // A direction to a portal: to a point uniform over it, or to a sphere by its cone.
 fn sample_portal(light: u32, reference: vec3<f32>, u: f32, v: f32) -> vec3<f32> {

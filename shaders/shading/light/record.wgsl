@@ -1,10 +1,8 @@
 // The lights' records in the tables.
 #import core/layout.wgsl
 #import geometry/scene.wgsl
-#if MOVING_LIGHTS
 #import geometry/motion.wgsl
 #import geometry/placed.wgsl
-#endif
 
 // A light takes five vec4 of the tables:
 //   (kind and flags; alias threshold; alias; probability of being chosen)

@@ -12,38 +12,18 @@
 #import shading/shape_point.wgsl
 #import shading/shapes.wgsl
 #import shading/surface.wgsl
-#if LIGHT_TREE
 #import shading/light/tree.wgsl
-#endif
-#if LIGHT_CELLS
 #import shading/light/cells.wgsl
-#endif
-#if LIGHTS_BY_PICTURE
 #import shading/light/emission_map.wgsl
-#endif
-#if FLAT_LIGHTS_BY_SOLID_ANGLE
 #import shading/light/seen_place.wgsl
-#endif
-#if SPHERE_LIGHTS
 #import shading/light/sphere_light.wgsl
-#endif
-#if PORTALS
 #import shading/light/portal.wgsl
-#endif
-#if VARYING_LIGHTS
 #import shading/material/bsdf.wgsl
 #import shading/texture/coordinates.wgsl
 #import shading/material/seen.wgsl
-#if ATTRIBUTES
 #import shading/texture/attributes.wgsl
-#endif
-#if SPHERE_LIGHTS
 #import shading/shape/sphere.wgsl
-#endif
-#if NORMAL_MAPS
 #import shading/texture/normal_map.wgsl
-#endif
-#endif
 
 #if VARYING_LIGHTS
 // Σ wᵢ Leᵢ towards `wo` at a point of a light: what a ray that met it would see.

@@ -1,12 +1,8 @@
 // Flat lights whose points are drawn by solid angle where it is large enough.
 #import core/layout.wgsl
 #import shading/light/record.wgsl
-#if RECTANGLES_BY_SOLID_ANGLE
 #import shading/light/seen_rectangle.wgsl
-#endif
-#if TRIANGLES_BY_SOLID_ANGLE
 #import shading/light/seen_triangle.wgsl
-#endif
 
 struct SeenPlace {
     // What the shape's own file draws the point by.

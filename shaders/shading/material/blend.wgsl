@@ -2,6 +2,7 @@
 // A part takes one vec4 of the tables: (material; first factor; number of factors; constant factor). A factor is a blend weight; where
 // it stands for the second child it is stored reversed.
 #import core/layout.wgsl
+#import core/spectrum.wgsl
 #import geometry/scene.wgsl
 #import shading/material/blend_weight.wgsl
 #import shading/texture/coordinates.wgsl

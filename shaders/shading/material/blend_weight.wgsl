@@ -5,12 +5,8 @@
 #import geometry/scene.wgsl
 #import shading/texture/coordinates.wgsl
 #import shading/material/seen.wgsl
-#if WEIGHTS_BY_ANGLE
 #import shading/microfacet/fresnel.wgsl
-#endif
-#if TEXTURES
 #import shading/texture/texture.wgsl
-#endif
 
 fn blend_weight(index: u32, seen: Seen, uv: TextureCoordinates) -> f32 {
     let h = tables[FIRST_BLEND_WEIGHT_WORD + index];

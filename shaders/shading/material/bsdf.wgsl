@@ -1,7 +1,6 @@
 // What a surface does to light, whatever its material is made of: load, evaluate, sample.
-#if NORMAL_SHADOWING
+#import core/spectrum.wgsl
 #import shading/texture/normal_shadowing.wgsl
-#endif
 #import shading/texture/coordinates.wgsl
 #import shading/material/scattering.wgsl
 #import shading/material/seen.wgsl

@@ -1,10 +1,9 @@
 // A lobe: one material that is no blend, with its parameters looked up for one hit.
 #import core/layout.wgsl
+#import core/spectrum.wgsl
 #import geometry/scene.wgsl
 #import shading/texture/coordinates.wgsl
-#if TEXTURES
 #import shading/texture/texture.wgsl
-#endif
 
 // What the parameters mean depends on the lobe: src/scene/material/kind.rs.
 struct Lobe {

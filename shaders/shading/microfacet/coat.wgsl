@@ -7,10 +7,8 @@
 #import shading/microfacet/microfacet.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
-#if COAT_NORMALS
 #import shading/shape_point.wgsl
 #import shading/texture/tangent_space.wgsl
-#endif
 
 // What it reflects at normal incidence.
 const COAT_REFLECTANCE: f32 = 0.04;

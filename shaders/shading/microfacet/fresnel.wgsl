@@ -1,4 +1,5 @@
 // How much light is reflected where it meets another medium.
+#import core/spectrum.wgsl
 
 // Squared cosine of the refracted direction by Snell's law, not above 0 in total reflection. As a sum of the difference of the indices and
 // the cosine it keeps its accuracy where both are small: 1 - (1 - cos²) / eta² would take every grazing ray for totally reflected.

@@ -3,9 +3,7 @@
 #import core/math.wgsl
 #import shading/material/lobe.wgsl
 #import shading/surface.wgsl
-#if BECKMANN
 #import shading/microfacet/beckmann.wgsl
-#endif
 
 // GGX, heights correlated, where no flag says otherwise.
 struct Facets {

@@ -1,4 +1,5 @@
 // Layers of light: which light the layer holds that a render makes in place of the picture. src/reference/layer.rs is the same.
+#import core/spectrum.wgsl
 
 // Light that reaches the camera over so many edges, as far as the layer holds it: all of it where the picture itself is made.
 fn in_layer(radiance: Spectrum, edges: u32) -> Spectrum {

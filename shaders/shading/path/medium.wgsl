@@ -1,5 +1,6 @@
 // Volumes that take light and scatter none, behind the surfaces that enclose them.
 #import core/layout.wgsl
+#import core/spectrum.wgsl
 #import geometry/scene.wgsl
 #import shading/surface.wgsl
 

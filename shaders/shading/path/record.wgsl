@@ -3,12 +3,8 @@
 #import shading/path/scatterer.wgsl
 #import shading/material/scattering.wgsl
 #import shading/surface.wgsl
-#if LIGHT_CELLS
 #import shading/cell_grid.wgsl
-#endif
-#if ATTENUATION
 #import shading/path/medium.wgsl
-#endif
 
 struct Path {
     ray: Ray,

@@ -3,9 +3,7 @@
 #import core/math.wgsl
 #import shading/path/record.wgsl
 #import shading/path/scatterer.wgsl
-#if GUIDE
 #import shading/path/guide.wgsl
-#endif
 
 struct Roulette {
     // The chance to survive.

@@ -2,13 +2,9 @@
 #import shading/material/bsdf.wgsl
 #import shading/material/scattering.wgsl
 #import shading/surface.wgsl
-#if GUIDE
 #import shading/path/guide.wgsl
 #import shading/path/guided.wgsl
-#endif
-#if NORMAL_SHADOWING
 #import shading/texture/normal_shadowing.wgsl
-#endif
 
 struct Scatterer {
     bsdf: Bsdf,

@@ -5,10 +5,8 @@
 #import core/math.wgsl
 #import geometry/constants.wgsl
 #import geometry/prepared_ray.wgsl
-#if TRANSPARENT_SHADOWS
 #import core/layout.wgsl
 #import shading/path/transmittance.wgsl
-#endif
 
 struct Shadow {
     // The distance to the light.

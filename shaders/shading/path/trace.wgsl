@@ -1,6 +1,7 @@
 // A debug build of the fused kernel writes down what happens at each vertex of one path: src/gpu/trace.rs reads it. In all other kernels
 // these functions do nothing.
 #import core/layout.wgsl
+#import core/spectrum.wgsl
 
 #if TRACE
 // How many vertices are written down, and vec4s of each; src/gpu/trace.rs has the same.

@@ -5,13 +5,9 @@
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
 #import geometry/shapes.wgsl
-#if MOTION
 #import geometry/placed.wgsl
-#endif
 #import shading/surface.wgsl
-#if BLENDS
 #import shading/material/blend.wgsl
-#endif
 
 #if BLENDS
 // The second crossing, before `limit`, of a ray and the primitive that it meets at `hit`; its primitive is NONE where there is none. Groups of

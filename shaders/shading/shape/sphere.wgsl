@@ -3,17 +3,11 @@
 #import geometry/shape/sphere.wgsl
 #import geometry/prepared_ray.wgsl
 #import shading/shape_point.wgsl
-#if ATTRIBUTES
 #import core/layout.wgsl
 #import geometry/records.wgsl
 #import shading/texture/attributes.wgsl
-#endif
-#if MOTION
 #import geometry/motion.wgsl
-#endif
-#if SPHERE_LIGHTS
 #import shading/light/sphere_light.wgsl
-#endif
 
 fn sphere_point(ray: Ray, hit: Hit, center: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>) -> ShapePoint {
     let normal = normalize(ray.origin + hit.t * ray.direction - center);

@@ -3,12 +3,8 @@
 #import geometry/records.wgsl
 #import shading/texture/coordinates.wgsl
 #import shading/shape_point.wgsl
-#if INSTANCES
 #import geometry/instance.wgsl
-#endif
-#if MOTION
 #import geometry/motion.wgsl
-#endif
 
 struct Attribute {
     // As long as interpolation leaves it; 0 where there is none.

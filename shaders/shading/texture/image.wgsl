@@ -1,11 +1,6 @@
 // Images, looked up by uv. Their texels are kept as they came from the file (src/scene/image.rs), and turned into linear colours here.
 #import core/layout.wgsl
-#if TEXTURES_OF_TRIANGLES
 #import core/math.wgsl
-#endif
-#if BUMP_MAPS
-#import core/math.wgsl
-#endif
 #import geometry/texels.wgsl
 
 struct Image {

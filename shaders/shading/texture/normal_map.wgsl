@@ -7,11 +7,7 @@
 #import shading/texture/tangent_space.wgsl
 #import shading/texture/tangents.wgsl
 #import shading/texture/texture.wgsl
-#if BUMP_MAPS
-#if ATTRIBUTES
 #import shading/texture/attributes.wgsl
-#endif
-#endif
 
 #if BUMP_MAPS
 // The normal of the surface that is lifted along `normal` by a texture's height (Blinn 1978). `along_u` and `along_v` are how its points move

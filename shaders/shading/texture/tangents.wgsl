@@ -2,9 +2,7 @@
 #import core/layout.wgsl
 #import shading/shape_point.wgsl
 #import shading/shapes.wgsl
-#if SECOND_UVS
 #import shading/texture/attributes.wgsl
-#endif
 
 // `first` may be NONE. Of what has one set of coordinates, the directions of that.
 fn tangents_of_set(kind: u32, first: u32, point: ShapePoint, by_second: bool) -> Tangents {

@@ -3,15 +3,8 @@
 #import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/texture/coordinates.wgsl
-#if IMAGES
 #import shading/texture/image.wgsl
-#endif
-#if PERLIN
 #import shading/texture/noise.wgsl
-#endif
-#if WORLEY
-#import shading/texture/noise.wgsl
-#endif
 
 // A texture takes five vec4 of the tables:
 //   (kind and flags; first texel or seed; width or octaves; height), (scale, offset), (colour a), (colour b),

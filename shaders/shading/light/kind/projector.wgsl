@@ -2,10 +2,8 @@
 #import core/layout.wgsl
 #import shading/light/record.wgsl
 #import shading/light/light_sample.wgsl
-#if LIGHT_TEXTURES
 #import shading/texture/coordinates.wgsl
 #import shading/texture/texture.wgsl
-#endif
 #import shading/light/projected_picture.wgsl
 
 fn sample_projector_light(light: u32, reference: vec3<f32>, pmf: f32) -> LightSample {

@@ -3,11 +3,9 @@
 #import core/math.wgsl
 #import shading/light/record.wgsl
 #import shading/light/light_sample.wgsl
-#if LIGHT_TEXTURES
 #import shading/texture/coordinates.wgsl
 #import shading/texture/texture.wgsl
 #import shading/light/projected_picture.wgsl
-#endif
 
 // The intensity where t is `t` of the way from the outer angle to the inner one: Hermite's smooth step unless the light's form says otherwise.
 fn spot_step(t: f32, kind_and_flags: u32) -> f32 {
