@@ -11,7 +11,6 @@ use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use crate::film::KernelLayer;
 use crate::learn::{self, Reasons, Settled};
 use crate::math::luminance;
-use crate::plan::{Decision, PlanOptions};
 use crate::reference::coverage::FirstOwners;
 use crate::reference::integrator::Integrator;
 use crate::reference::intersect::Ray;
@@ -20,17 +19,19 @@ use crate::reference::rounding::Rounding;
 use crate::reference::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::renderer::sink::{Sink, keep_between};
 use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_SWEEP, Tally};
-use crate::renderer::{Batch, Change, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
+use crate::renderer::{
+    Batch, Change, Decision, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping,
+};
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 
 /// Pictures up to this many pixels (8K) are rendered in several passes over all bands, so that an interrupted render has every pixel;
 /// larger ones band by band, so that memory stays bounded.
 const PIXELS_IN_MEMORY: u64 = 1 << 25;
-/// Vertices after which it is looked again whether a path should be given up.
-const VERTICES_BETWEEN_LOOKS: u32 = 4096;
 /// Sweeps are planned to take so much of the time that is left.
 const CAUTION: f64 = 0.95;
+/// Vertices after which it is looked again whether a path should be given up.
+const VERTICES_BETWEEN_LOOKS: u32 = 4096;
 /// A pass over one band should take this long: the observer is asked after each.
 const PASS_DURATION: Duration = Duration::from_millis(150);
 
@@ -385,12 +386,7 @@ impl Renderer for ReferenceRenderer {
         "CPU reference"
     }
 
-    fn with_scene(
-        mut self: Box<Self>,
-        scene: &Scene,
-        _options: &PlanOptions,
-        change: Change,
-    ) -> Result<Box<dyn Renderer>, RenderError> {
+    fn with_scene(mut self: Box<Self>, scene: &Scene, change: Change) -> Result<Box<dyn Renderer>, RenderError> {
         let start = Instant::now();
         // Where light is to be looked for depends on what the camera sees.
         if change == Change::Camera && !self.depends_on_view && self.integrator.set_camera(scene) {

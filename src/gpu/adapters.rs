@@ -3,7 +3,7 @@
 use serde::Serialize;
 use wgpu::{Adapter, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, InstanceFlags, TextureFormat};
 
-use crate::plan::driver_identity;
+use super::limits::driver_identity;
 use crate::renderer::{DeviceChoice, RenderError};
 
 /// The interfaces worth asking: the ones whose compute shaders meet WebGPU. OpenGL is left out on purpose.

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use super::compiled::CompiledKernels;
 use super::driver_thread::{DriverThread, Fate, OPENING_THREAD, keep_panics_quiet, message};
-use crate::plan::{DeviceLimits, PlanOptions, driver_identity};
+use super::limits::{driver_identity, limits_for_plans};
+use crate::plan::{DeviceLimits, PlanOptions};
 use crate::renderer::{DeviceChoice, RenderError};
 
 /// A device with its queue, and the first error it reported. Clones are the same device.
@@ -123,7 +124,7 @@ impl Device {
     /// As [`Device::open`]; [`RenderError::DoesNotFit`] where the adapter lacks what they ask for.
     pub fn open_for(choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
         let adapter = super::adapters::select_adapter(choice)?;
-        let limits = DeviceLimits::for_plans(&adapter, options)?;
+        let limits = limits_for_plans(&adapter, options)?;
         let mut features = wgpu::Features::empty();
         if limits.read_write_rgba32float {
             features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;

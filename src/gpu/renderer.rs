@@ -19,6 +19,7 @@ use crate::binary_tree::parts::KeptTrees;
 use crate::film::Band;
 use crate::packed::PackedScene;
 use crate::packed::environment::PackedEnvironment;
+use crate::packed::hierarchy::Traversal;
 use crate::packed::view::View;
 use crate::plan::bindings::Binding;
 use crate::plan::counters::{CLAMPED_COUNTER, CLAMPED_UNITS_COUNTER, COUNTER_WORDS, RAYS_COUNTER, REFUSED_COUNTER};
@@ -43,6 +44,8 @@ pub struct GpuRenderer {
     environment: PackedEnvironment,
     /// Paths were traced before the first sample to learn about the scene.
     depends_on_view: bool,
+    /// What was asked of its plan, and is asked of the plans of further frames.
+    options: PlanOptions,
     /// What the next frame's hierarchy may be made of.
     trees: KeptTrees,
 }
@@ -108,6 +111,7 @@ impl GpuRenderer {
             center: scene.center(),
             environment: packed.environment,
             depends_on_view: settled.depends_on_view,
+            options: options.clone(),
             trees,
         })
     }
@@ -228,12 +232,7 @@ impl Renderer for GpuRenderer {
         &self.pipeline.device.name
     }
 
-    fn with_scene(
-        mut self: Box<Self>,
-        scene: &Scene,
-        options: &PlanOptions,
-        change: Change,
-    ) -> Result<Box<dyn Renderer>, RenderError> {
+    fn with_scene(mut self: Box<Self>, scene: &Scene, change: Change) -> Result<Box<dyn Renderer>, RenderError> {
         // Where light is to be looked for depends on what the camera sees.
         if change == Change::Camera && !self.depends_on_view && scene.center() == self.center {
             let start = Instant::now();
@@ -244,10 +243,10 @@ impl Renderer for GpuRenderer {
             return Ok(self);
         }
         let device = self.pipeline.device.clone();
-        let trees = std::mem::take(&mut self.trees);
+        let (options, trees) = (std::mem::take(&mut self.options), std::mem::take(&mut self.trees));
         // Its memory is free before the next scene's is taken.
         drop(self);
-        Ok(Box::new(Self::with_trees(OpeningDevice::is_open(&device), scene, options, trees)?))
+        Ok(Box::new(Self::with_trees(OpeningDevice::is_open(&device), scene, &options, trees)?))
     }
 
     fn holds_whole_film(&self) -> bool {
@@ -306,7 +305,7 @@ impl Renderer for GpuRenderer {
         let tally = self.tally(0, &sweeps)?;
         Ok(RenderReport {
             device: self.pipeline.device.name.clone(),
-            traversal: self.pipeline.plan.traversal_in_use(),
+            hierarchy: self.pipeline.plan.traversal_in_use().map(Traversal::key),
             decisions: self.pipeline.plan.decisions.clone(),
             compiled_in: self.pipeline.plan.switches.enabled.iter().copied().collect(),
             rays: tally.rays,
