@@ -17,7 +17,7 @@ use state::BatchState;
 
 pub use decision::Decision;
 pub use observer::{Observer, Silent};
-pub use stopping::{Ending, Stopping};
+pub use stopping::{CAUTION, Ending, Stopping};
 
 /// Which device renders.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

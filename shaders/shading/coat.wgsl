@@ -12,9 +12,6 @@
 #import shading/tangent_space.wgsl
 #endif
 
-// What it reflects at normal incidence.
-const COAT_REFLECTANCE: f32 = 0.04;
-
 struct Coat {
     // The part of the surface that it covers.
     strength: f32,

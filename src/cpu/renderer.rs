@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::clamp::Clamp;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
-use crate::film::KernelLayer;
+use crate::film::{KernelLayer, MOST_FILM_PIXELS};
 use crate::learn::{self, Reasons, Settled};
 use crate::math::luminance;
 use crate::reference::coverage::FirstOwners;
@@ -20,16 +20,11 @@ use crate::reference::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::renderer::sink::{Sink, keep_between};
 use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_SWEEP, Tally};
 use crate::renderer::{
-    Batch, Change, Decision, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping,
+    Batch, CAUTION, Change, Decision, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping,
 };
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 
-/// Pictures up to this many pixels (8K) are rendered in several passes over all bands, so that an interrupted render has every pixel;
-/// larger ones band by band, so that memory stays bounded.
-const PIXELS_IN_MEMORY: u64 = 1 << 25;
-/// Sweeps are planned to take so much of the time that is left.
-const CAUTION: f64 = 0.95;
 /// Vertices after which it is looked again whether a path should be given up.
 const VERTICES_BETWEEN_LOOKS: u32 = 4096;
 /// A pass over one band should take this long: the observer is asked after each.
@@ -41,7 +36,7 @@ pub struct ReferenceRenderer {
     integrator: Integrator,
     /// What is made in place of the picture.
     layer: Option<KernelLayer>,
-    /// Most pixels whose samples go together: [`PIXELS_IN_MEMORY`] but for tests.
+    /// Most pixels whose samples go together: [`MOST_FILM_PIXELS`] but for tests.
     pixels_in_memory: u64,
     /// Why settings are what they are that the scene leaves open.
     because: Reasons,
@@ -115,7 +110,7 @@ impl ReferenceRenderer {
             layer,
             because,
             depends_on_view,
-            pixels_in_memory: PIXELS_IN_MEMORY,
+            pixels_in_memory: MOST_FILM_PIXELS,
             build_seconds: start.elapsed().as_secs_f64(),
             timed_samples: 0.0,
             timed_seconds: 0.0,
@@ -125,7 +120,7 @@ impl ReferenceRenderer {
     /// With a film of so many pixels at a time: those of larger pictures are rendered band by band.
     #[must_use]
     pub fn with_film_pixels(self, pixels: u64) -> Self {
-        Self { pixels_in_memory: pixels.min(PIXELS_IN_MEMORY), ..self }
+        Self { pixels_in_memory: pixels.min(MOST_FILM_PIXELS), ..self }
     }
 
     /// What was decided, where the settings leave it open.

@@ -12,10 +12,7 @@ use super::snapshot::Snapshot;
 use crate::plan::bindings::Binding;
 use crate::renderer::sink::{Sink, keep_between};
 use crate::renderer::state::{BatchState, FilmState, Tally};
-use crate::renderer::{Ending, RenderError};
-
-/// Sweeps are planned to take so much of the time that is left.
-const CAUTION: f64 = 0.95;
+use crate::renderer::{CAUTION, Ending, RenderError};
 
 /// A device that had memory enough to begin, and then has not, fails as one that is lost does: what was rendered is saved, and it may do better another
 /// time.

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::paths::{follow, pixel_of};
+use super::paths::{MOST_VERTICES, follow, pixel_of};
 use super::trial;
 use super::work_of_path;
 use crate::reference::bsdf::{BsdfSample, Density, View};
@@ -43,8 +43,6 @@ const MOST_WORK_OF_UNUSUAL: f64 = 8.0 * work::SECOND as f64;
 const PATHS_AT_ONCE: u32 = 256;
 /// What a surface sends on that can be reckoned with.
 const LARGEST_SENT_ON: f64 = 1e30;
-/// Vertices after which a training path is given up.
-const MOST_VERTICES: u32 = 64;
 
 /// What came of training.
 #[derive(Debug, Clone, Default)]

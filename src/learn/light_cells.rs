@@ -41,8 +41,8 @@ const MOST_WORK: u64 = 8 * work::SECOND;
 const FEWEST_AFFORDABLE: u32 = 8;
 /// Cells between two looks at the work that is done.
 const CELLS_AT_ONCE: usize = 8;
-/// Vertices after which a path is given up.
-const MOST_VERTICES: u32 = 16;
+/// Vertices after which a path is given up: few, since what is far along paths matters little for which lights reach a place.
+const FIRST_VERTICES: u32 = 16;
 /// Lights that are tried in each cell.
 const TRIED_LIGHTS: usize = 96;
 /// Points of a cell from which lights are tried.
@@ -395,6 +395,6 @@ impl PathVisitor for Walker {
     }
 
     fn gives_up(&mut self, vertices: u32) -> bool {
-        vertices >= MOST_VERTICES
+        vertices >= FIRST_VERTICES
     }
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::paths::{follow, pixel_of};
+use super::paths::{MOST_VERTICES, follow, pixel_of};
 use crate::reference::integrator::Integrator;
 use crate::reference::trace::PathVisitor;
 use crate::reference::work;
@@ -19,8 +19,6 @@ const BATCHES: [u32; 4] = [2, 6, 24, 96];
 const MOST_JUDGING: u64 = work::SECOND;
 /// Work after which a path is given up. It then took more than anything that is traced thousands of times may take.
 const MOST_OF_PATH: u64 = work::SECOND / 4;
-/// Vertices after which a path is given up, as trial runs do.
-const MOST_VERTICES: u32 = 64;
 
 /// The work of a path of this scene, light samples included, by the mean of a few that are spread over the film: the same ones, whatever the seed.
 pub fn of_path(integrator: &Integrator) -> f64 {

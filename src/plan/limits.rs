@@ -3,6 +3,7 @@
 use super::choices::{FILM_BYTES, FilmStorage};
 use super::error::PlanError;
 use super::path_state::PathMemory;
+use crate::film::MOST_FILM_PIXELS;
 
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
 const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
@@ -13,8 +14,6 @@ const HARDWARE_PATHS: u64 = 1 << 21;
 /// Where a device has no memory for more.
 const FEWEST_PATHS: u32 = 1 << 18;
 
-/// Pixels of a film that samples go over as a whole: those of an 8K picture, which take 1 GiB. Larger pictures are rendered in bands.
-const MOST_FILM_PIXELS: u64 = 1 << 25;
 /// Pixels of a band where the device has no memory for more, which take 32 MiB.
 const FEWEST_FILM_PIXELS: u64 = 1 << 20;
 /// Where pixels are listed, a path's state has 24 bits for its pixel.

@@ -10,6 +10,7 @@ pub mod chunks;
 pub mod counters;
 mod decisions;
 mod error;
+mod estimator;
 pub mod fault;
 pub mod generated;
 pub mod host;

@@ -12,9 +12,7 @@ use super::intersect::Surface;
 use crate::sampling::Guide;
 use crate::sampling::guide::GuideCell;
 use crate::sampling::guide::table::GUIDED_SHARE;
-
-/// The largest number that is left where one chose the BSDF: random numbers are multiples of 2⁻²⁴ below 1.
-const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
+use crate::sampling::sampler::LARGEST_NUMBER;
 
 /// A surface's BSDF, and the guide where it takes part.
 #[derive(Debug, Clone, Copy)]

@@ -12,12 +12,10 @@ use super::intersect::{Ray, Surface, SurfacePoint};
 use super::trace::{LightConnection, PathVisitor};
 use crate::math::POINT_ERROR;
 use crate::sampling::hash::mix;
+use crate::sampling::sampler::LARGEST_NUMBER;
 
 /// Relative size of one rounding to f32.
 const UNIT: f64 = 0.5 * f32::EPSILON as f64;
-
-/// Random numbers are below 1: the largest that samplers give.
-const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
 
 /// Follows a path with intermediate results that are off by rounding errors, and notes which decisions were taken.
 #[derive(Debug, Clone)]

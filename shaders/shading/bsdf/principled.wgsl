@@ -20,12 +20,6 @@
 #import shading/sheen.wgsl
 #endif
 
-// Largest share of the base's samples that the reflection takes, and least share of those of a reflection that there is.
-const MOST_REFLECTED: f32 = 0.95;
-const LEAST_REFLECTED: f32 = 0.02;
-// About what white fibres reflect of all light.
-const SHEEN_WEIGHT: f32 = 0.1;
-
 struct Principled {
     base: vec3<f32>,
     // Of the dielectric, at normal incidence.

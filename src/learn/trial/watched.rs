@@ -2,15 +2,13 @@
 
 use glam::DVec3;
 
+use super::super::paths::MOST_VERTICES;
 use super::rays::Rays;
 use super::sum::Sum;
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::intersect::Surface;
 use crate::reference::trace::{LightConnection, PathVisitor};
 use crate::scene::RenderSettings;
-
-/// Vertices after which a path is given up.
-const MOST_VERTICES: u32 = 64;
 
 /// What a path tells of other ways to trace it. Light in view is no part of that: no other way changes it.
 pub trait Record {

@@ -10,12 +10,12 @@ pub const LEAF: u32 = 1 << 31;
 pub const TWO_SIDED: u32 = 1 << 30;
 pub const NUMBER_MASK: u32 = TWO_SIDED - 1;
 
-/// Cosines and coordinates are kept in 16 bits as multiples of 1 over this, a power of two: 1 comes back as 1.
-const STEPS: f64 = 16384.0;
-/// Where both clusters send light to a point, each has this probability at least: what is known of them is rough.
-const LEAST: f64 = 1.0 / 4096.0;
+/// Cosines and coordinates are kept in 16 bits as multiples of this, a power of two: 1 comes back as 1.
+pub const STEP: f64 = 1.0 / 16384.0;
+/// Least probability of a cluster that sends light to a point while the other one does as well: what is known of them is rough.
+pub const LEAST_SHARE: f64 = 1.0 / 4096.0;
 /// Least cosine at the lights that is reckoned with, for the same reason.
-const LEAST_COSINE: f64 = 0.01;
+pub const LEAST_COSINE: f64 = 0.01;
 
 /// Two clusters of lights.
 #[repr(C)]
@@ -57,12 +57,12 @@ impl LightCluster {
     pub fn new(center: DVec3, radius: f64, power: f64, cone: Cone, link: u32) -> Self {
         let flags = if cone.two_sided { TWO_SIDED } else { 0 };
         // Rounded down, cosines are those of wider cones.
-        let lower = |angle: f64| (angle.cos() * STEPS).floor();
+        let lower = |angle: f64| (angle.cos() / STEP).floor();
         Self {
             center: center.as_vec3().to_array(),
             radius: radius as f32,
             power: power.max(f64::from(f32::MIN_POSITIVE)) as f32,
-            axis: halves(octahedron::place_of(cone.axis).map(|x| (x * STEPS).round())),
+            axis: halves(octahedron::place_of(cone.axis).map(|x| (x / STEP).round())),
             cosines: halves([lower(cone.spread), lower(cone.reach)]),
             link: link | flags,
         }
@@ -119,7 +119,7 @@ impl LightNode {
             return 0;
         }
         let [a, b] = [first.power * second.squared_distance, second.power * first.squared_distance];
-        let share = if a + b > 0.0 { (a / (a + b)).clamp(LEAST, 1.0 - LEAST) } else { 0.5 };
+        let share = if a + b > 0.0 { (a / (a + b)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE) } else { 0.5 };
         ((u64::from(range) * (share * 4_294_967_296.0) as u64) >> 32) as u32
     }
 }
@@ -130,7 +130,7 @@ fn halves([low, high]: [f64; 2]) -> u32 {
 }
 
 fn numbers(halves: u32) -> [f64; 2] {
-    [halves as u16, (halves >> 16) as u16].map(|half| f64::from(half as i16) / STEPS)
+    [halves as u16, (halves >> 16) as u16].map(|half| f64::from(half as i16) * STEP)
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@
 //! another light only where the bits lie next to a border. `shaders/shading/light_tree.wgsl` is the device's half.
 
 mod build;
-mod cluster;
+pub mod cluster;
 mod cone;
 mod emitter;
 mod strongest;
