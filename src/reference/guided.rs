@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::bsdf::{Bsdf, BsdfSample, Density, Evaluation};
+use super::bsdf::{Bsdf, BsdfSample, Density, Evaluation, View};
 use super::intersect::Surface;
 use crate::sampling::Guide;
 use crate::sampling::guide::GuideCell;
@@ -27,6 +27,11 @@ impl<'a> GuidedBsdf<'a> {
         let share = guide.map_or(0.0, |_| f64::from(GUIDED_SHARE) * bsdf.guided_probability());
         let cell = guide.filter(|_| share > 0.0).and_then(|guide| guide.cell(surface.point.position, bsdf.view.normal()));
         Self { bsdf, guide: cell.map(|cell| (cell, share)) }
+    }
+
+    /// The surface as the path sees it.
+    pub fn view(&self) -> &'a View {
+        &self.bsdf.view
     }
 
     /// As [`GuideCell::sent_on`]; none where there is no guide.
