@@ -1,10 +1,10 @@
 //! The path tracing estimator (Kajiya 1986; Veach 1997).
 //!
-//! Radiance that arrives along a ray leaves the surface it came from: L = Le + ∫ f(wo, wi) L(wi) |cosθi| dwi. The integral is
-//! estimated at every surface by at most two samples: one direction towards a light (next event estimation), which finds emission
-//! only, and one direction drawn from the BSDF, along which the path goes on. The product of all weights f·|cosθ| / density so far
-//! is the path's throughput. Emission that both samples can find is shared out by multiple importance sampling, see
-//! [`super::mis`].
+//! Radiance that arrives along a ray leaves the surface it came from: L = Le + ∫ f(wo, wi) L(wi) |cosθi| dwi.
+//! The integral is estimated at every surface by at most two samples: one direction towards a light (next
+//! event estimation), which finds emission only, and one direction drawn from the BSDF, along which the path
+//! goes on. The product of all weights f·|cosθ| / density so far is the path's throughput. Emission that both
+//! samples can find is shared out by multiple importance sampling, see [`super::mis`].
 
 mod setup;
 
@@ -52,20 +52,22 @@ struct Path {
     throughput: DVec3,
     /// What the path has found.
     radiance: DVec3,
-    /// Product of eta² over the refractions so far: undoes the scaling of radiance, so that roulette does not end paths for being
-    /// inside glass.
+    /// Product of eta² over the refractions so far: undoes the scaling of radiance, so that roulette does not
+    /// end paths for being inside glass.
     eta_scale: f64,
     /// By which roulette ends guided paths.
     expectation: Expectation,
-    /// How the ray's direction was sampled at the last vertex that is no null surface, and where the ray began there. Shadow rays from there
-    /// go on through null surfaces as the path does, so both are weighed against each other by the densities that they have there.
+    /// How the ray's direction was sampled at the last vertex that is no null surface, and where the ray
+    /// began there. Shadow rays from there go on through null surfaces as the path does, so both are weighed
+    /// against each other by the densities that they have there.
     previous: Density,
     lit_from: LitPoint,
     /// Of what the ray goes through.
     extinction: DVec3,
     /// Edges of the path up to the end of the ray: the camera's has 1.
     depth: u32,
-    /// Number of the next vertex, from 0: each has random numbers of its own. Null surfaces end no edge, else it would be depth − 1.
+    /// Number of the next vertex, from 0: each has random numbers of its own. Null surfaces end no edge, else
+    /// it would be depth − 1.
     vertex: u32,
 }
 
@@ -111,7 +113,8 @@ impl Integrator {
         PathTime::new(&self.scene, open + (close - open) * sampler.uniform(Dimension::camera(CameraDimension::Time)))
     }
 
-    /// Extends a path whose ray met `hit`: adds the light found there, and chooses the next ray. False where the path ends.
+    /// Extends a path whose ray met `hit`: adds the light found there, and chooses the next ray. False where
+    /// the path ends.
     fn shade_vertex<V: PathVisitor>(&self, path: &mut Path, hit: Option<Hit>, sampler: &PathSampler, visitor: &mut V) -> bool {
         // Add light from outside where the ray left the scene
         let Some(hit) = hit else {
@@ -136,7 +139,8 @@ impl Integrator {
         // Add the emission of the surface
         self.add_emitted_radiance(path, &surface, wo, visitor);
 
-        // End the path at its greatest depth: only blends, which may hold null surfaces, let its last edge go on
+        // End the path at its greatest depth: only blends, which may hold null surfaces, let its last edge go
+        // on
         let last_edge = path.depth == self.scene.render.max_depth;
         if last_edge && !self.scene.materials[surface.owner.material].is_blend() {
             return false;
@@ -234,7 +238,8 @@ impl Integrator {
         visitor.emission(radiance, weight, contribution);
     }
 
-    /// The weight of light that a path's ray found, where one light sample of the surface before has the density `light_pdf`.
+    /// The weight of light that a path's ray found, where one light sample of the surface before has the
+    /// density `light_pdf`.
     fn emission_weight(&self, path: &Path, light_pdf: impl Fn() -> f64) -> f64 {
         let settings = &self.scene.render;
         let light_pdf = || light_pdf() * f64::from(settings.light_samples_at(path.depth - 1));
@@ -253,7 +258,8 @@ impl Integrator {
         self.scene.render.estimator != Estimator::Bsdf && !self.lights.is_empty() && bsdf.has_non_delta_lobe()
     }
 
-    /// Next event estimation: one light, one direction to it, f·|cosθ|·L / (probability · density), if nothing is in between.
+    /// Next event estimation: one light, one direction to it, f·|cosθ|·L / (probability · density), if
+    /// nothing is in between.
     fn add_direct_light<V: PathVisitor>(
         &self,
         path: &mut Path,
@@ -275,7 +281,8 @@ impl Integrator {
         let mut light = LightSample { pdf: light.pdf * f64::from(settings.light_samples_at(path.depth)), ..light };
         visitor.round_light(&mut light, &self.lights);
 
-        // Weigh the sample: no BSDF sample finds a point light, and with `nee` BSDF samples leave all emission to light samples
+        // Weigh the sample: no BSDF sample finds a point light, and with `nee` BSDF samples leave all
+        // emission to light samples
         let scattering = guided.evaluate(light.wi);
         if scattering.value == DVec3::ZERO {
             return;
@@ -301,14 +308,16 @@ impl Integrator {
         visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: unstopped > 0.0, contribution });
     }
 
-    /// The share of a sample's light that comes through everything between the origin of its shadow ray and the light.
+    /// The share of a sample's light that comes through everything between the origin of its shadow ray and
+    /// the light.
     fn unstopped(&self, shadow_ray: Ray, light: &LightSample, time: &PathTime) -> f64 {
         let share = |surface: &Surface| null_weight(&self.scene, surface, -shadow_ray.direction);
         let lets_through = |material: MaterialId| self.lights.lets_through(material);
         self.world.transmittance(shadow_ray, light.distance, light.target, time, lets_through, share)
     }
 
-    /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves the mean as it is.
+    /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves
+    /// the mean as it is.
     fn survives_roulette<V: PathVisitor>(&self, path: &mut Path, survival: f64, u: f64, visitor: &mut V) -> bool {
         if self.scene.render.first_roulette(self.guide.is_some()).is_none_or(|first| path.depth < first) {
             return true;

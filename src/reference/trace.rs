@@ -21,19 +21,22 @@ pub struct LightConnection {
     pub contribution: DVec3,
 }
 
-/// Is told what happens along a path, in this order. Those that do not care leave the methods as they are, at no cost.
+/// Is told what happens along a path, in this order. Those that do not care leave the methods as they are, at
+/// no cost.
 pub trait PathVisitor {
     /// Whether light is sampled for the path.
     const LIGHTS: bool = true;
     /// A path or shadow ray is traced.
     fn ray(&mut self, _ray: &Ray) {}
-    /// The path met a surface; `throughput` is that of the path up to it, `depth` is that of the ray that met it.
+    /// The path met a surface; `throughput` is that of the path up to it, `depth` is that of the ray that met
+    /// it.
     fn surface(&mut self, _depth: u32, _surface: &Surface, _wo: DVec3, _throughput: DVec3) {}
     /// The surface emits towards the path.
     fn emission(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
     /// Whether the method below is called.
     const COMPARES: bool = false;
-    /// The direction of the light sample or of the path that is told of next would have so many times its density without a guide.
+    /// The direction of the light sample or of the path that is told of next would have so many times its
+    /// density without a guide.
     fn unguided(&mut self, _times: f64) {}
     /// The surface scatters, seen like this.
     fn view(&mut self, _view: &View) {}
@@ -66,8 +69,8 @@ pub trait PathVisitor {
     fn round_number(&mut self, number: f64) -> f64 {
         number
     }
-    /// The bits of the random numbers by which a direction to a light is drawn; `magnified` says how many times their rounding errors are
-    /// magnified.
+    /// The bits of the random numbers by which a direction to a light is drawn; `magnified` says how many
+    /// times their rounding errors are magnified.
     fn round_light_numbers(&mut self, bits: [u32; 2], _magnified: impl FnOnce() -> f64) -> [u32; 2] {
         bits
     }

@@ -36,8 +36,9 @@ pub struct OutsideLight {
     pub is_constant: bool,
 }
 
-/// All lights that are sampled, in their order: surfaces, delta lights inside the scene, delta lights at infinity, the environment
-/// and its portals. [`LightSampler`] holds their weights. Empty where the estimator samples none.
+/// All lights that are sampled, in their order: surfaces, delta lights inside the scene, delta lights at
+/// infinity, the environment and its portals. [`LightSampler`] holds their weights. Empty where the estimator
+/// samples none.
 #[derive(Debug, Default)]
 pub struct LightList {
     pub sources: Vec<LightSource>,
@@ -45,7 +46,8 @@ pub struct LightList {
 }
 
 impl LightList {
-    /// The lights of a scene with these emitting surfaces, in the scene's order, and with portals of these areas.
+    /// The lights of a scene with these emitting surfaces, in the scene's order, and with portals of these
+    /// areas.
     pub fn new(scene: &Scene, surfaces: &[EmittingSurface], outside: OutsideLight, portals: &[f64]) -> Self {
         let mut list = Self::default();
         if scene.render.estimator == Estimator::Bsdf {
@@ -66,7 +68,8 @@ impl LightList {
             return list;
         }
         let mut add = |source, irradiance| list.add(source, LightGroup::Environment, LightStrength::Irradiance(irradiance));
-        // Where BSDF sampling takes part, it finds a constant environment better than light sampling does, without a shadow ray.
+        // Where BSDF sampling takes part, it finds a constant environment better than light sampling does,
+        // without a shadow ray.
         if scene.render.estimator == Estimator::Nee || !outside.is_constant {
             add(LightSource::Environment, irradiance);
         }

@@ -16,7 +16,8 @@ use crate::sampling::{Guide, LightCells, LitPoint};
 use crate::scene::{ColorInput, Emission, Emitters, LightChoice, RenderSettings, Scene};
 
 impl Integrator {
-    /// Takes positions relative to the scene's [center](Scene::center). Fails on what the reference cannot render.
+    /// Takes positions relative to the scene's [center](Scene::center). Fails on what the reference cannot
+    /// render.
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
         scene.validate()?;
         let center = scene.center();
@@ -42,7 +43,8 @@ impl Integrator {
         self.guide.as_deref()
     }
 
-    /// Looks at the scene as another frame's camera does; false where the scene is then to be moved elsewhere, and nothing has changed.
+    /// Looks at the scene as another frame's camera does; false where the scene is then to be moved
+    /// elsewhere, and nothing has changed.
     pub fn set_camera(&mut self, scene: &Scene) -> bool {
         if scene.center() != self.center {
             return false;
@@ -114,8 +116,9 @@ impl Integrator {
         self.lights.set_cells(learned);
     }
 
-    /// What a light brings to a point of a surface when the shutter opens: an estimate by two random numbers of the integral of luminance and cosine, without
-    /// what stands in between and with it. No normal: whatever the cosine.
+    /// What a light brings to a point of a surface when the shutter opens: an estimate by two random numbers
+    /// of the integral of luminance and cosine, without what stands in between and with it. No normal:
+    /// whatever the cosine.
     pub fn light_reaching(&self, (from, normal): (LitPoint, DVec3), chosen: (usize, f64), numbers: [u32; 2]) -> [f64; 2] {
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
         let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), from, chosen, numbers) else {
@@ -145,7 +148,8 @@ impl Integrator {
         self.world.indices_in_scene_order().len()
     }
 
-    /// Of lights that can be drawn from by solid angle as well as by area, what takes most to be drawn so. None: there are none.
+    /// Of lights that can be drawn from by solid angle as well as by area, what takes most to be drawn so.
+    /// None: there are none.
     pub fn costliest_outline(&self) -> Option<Outline> {
         self.lights.costliest_outline(&self.scene, &self.world)
     }
