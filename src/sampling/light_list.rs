@@ -68,7 +68,7 @@ impl LightList {
             return list;
         }
         let mut add = |source, irradiance| list.add(source, LightGroup::Environment, LightStrength::Irradiance(irradiance));
-        // Where BSDF sampling takes part, it finds a constant environment better than light sampling does,
+        // BSDF sampling, where it takes part, finds a constant environment better than light sampling does,
         // without a shadow ray.
         if scene.render.estimator == Estimator::Nee || !outside.is_constant {
             add(LightSource::Environment, irradiance);

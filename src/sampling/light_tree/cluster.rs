@@ -28,10 +28,10 @@ pub struct LightNode {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct LightCluster {
-    /// Of a sphere around them.
+    /// Centre of a sphere around the lights.
     pub center: [f32; 3],
     pub radius: f32,
-    /// As a share of that of all lights in the tree.
+    /// Power of the lights, as a share of that of all lights in the tree.
     pub power: f32,
     /// The axis of their cone on an octahedron unfolded to a square: two numbers of 16 bits, the first in the lower half.
     pub axis: u32,
@@ -44,7 +44,7 @@ pub struct LightCluster {
 /// Least distance that is reckoned with where points and lights lie among each other, as a share of the radius of both.
 const NEAREST: f64 = 0.25;
 
-/// What a cluster can send to a point.
+/// Light that a cluster can send to a point.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     /// Power times the largest cosine there can be; 0 where nothing arrives.
@@ -68,7 +68,8 @@ impl LightCluster {
         }
     }
 
-    /// As `cluster_seen` in `shaders/shading/light_tree.wgsl`.
+    /// Light that the cluster can send to a point, as `cluster_seen` in `shaders/shading/light_tree.wgsl`
+    /// finds it.
     fn seen(&self, point: DVec3) -> Seen {
         let away = point - DVec3::from(self.center.map(f64::from));
         let (power, radius) = (f64::from(self.power), f64::from(self.radius));
@@ -89,7 +90,7 @@ impl LightCluster {
             cosine = along * spread + aside * sine_of_spread;
             sine = aside * spread - along * sine_of_spread;
         }
-        // The same from the point of the sphere from where it is least.
+        // The cosine as seen from the point of the sphere where the angle is least.
         let sine_of_sphere = radius / distance;
         let cosine_of_sphere = (1.0 - sine_of_sphere * sine_of_sphere).max(0.0).sqrt();
         cosine = if cosine < cosine_of_sphere { cosine * cosine_of_sphere + sine * sine_of_sphere } else { 1.0 };
@@ -99,7 +100,7 @@ impl LightCluster {
 }
 
 impl LightCluster {
-    /// What it can send at most to a point within `radius` of `center`.
+    /// Most light that the cluster can send to a point within `radius` of `center`.
     pub fn most(&self, center: DVec3, radius: f64) -> f64 {
         let around = Self { radius: self.radius + radius as f32, ..*self };
         let seen = around.seen(center);
