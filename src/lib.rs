@@ -80,6 +80,8 @@ pub mod cpu;
 #[doc(hidden)]
 pub mod denoise;
 #[doc(hidden)]
+pub mod device;
+#[doc(hidden)]
 pub mod emission_map;
 mod error;
 mod file_identity;

@@ -2,8 +2,12 @@
 
 use glam::{DVec3, Vec3};
 
-/// Relative size of the error of a surface point that devices compute in f32, as kernels bound it: `POINT_ERROR` in `shaders/core/math.wgsl`.
+/// Relative size of the error of a surface point that devices compute in f32: some 16 rounding errors (2⁻²⁴ each).
 pub const POINT_ERROR: f64 = 1.0e-6;
+/// Distance by which a shadow ray may be off to the side at its end, as a share of its length: rounding of its direction.
+pub const DIRECTION_ERROR: f64 = 2.5e-7;
+/// Share of its length after which a shadow ray ends, on top of the light's own error: one rounding error of its distance.
+pub const SHADOW_SHORTENING: f64 = 0.999_999;
 
 /// Luminance of a linear Rec.709 colour.
 pub fn luminance(color: DVec3) -> f64 {

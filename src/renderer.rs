@@ -1,5 +1,6 @@
 //! What every renderer, GPU or CPU, takes and gives back.
 
+mod decision;
 mod observer;
 pub mod sink;
 pub mod state;
@@ -10,14 +11,13 @@ use std::time::Instant;
 
 use crate::film::Band;
 use crate::math::luminance;
-use crate::packed::hierarchy::Traversal;
-use crate::plan::{Decision, PlanError, PlanOptions};
 use crate::scene::{InvalidScene, Scene};
 use sink::Sink;
 use state::BatchState;
 
+pub use decision::Decision;
 pub use observer::{Observer, Silent};
-pub use stopping::{Ending, Stopping};
+pub use stopping::{CAUTION, Ending, Stopping};
 
 /// Which device renders.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -102,8 +102,8 @@ impl<'a> Batch<'a> {
 pub struct RenderReport {
     /// The device as people call it, for example `llvmpipe (LLVM 15.0.6, 256 bits)` or `CPU reference`.
     pub device: String,
-    /// How rays find what stands in a graphics device's hierarchy; None where geometry is code.
-    pub traversal: Option<Traversal>,
+    /// The name of a graphics device's hierarchy, `bvh4` or `ray_query`; None where geometry is code.
+    pub hierarchy: Option<&'static str>,
     /// What the plan decided for a graphics device, and why; empty for the CPU.
     pub decisions: Vec<Decision>,
     /// The parts of the shaders that a graphics device's kernels hold.
@@ -161,32 +161,17 @@ pub enum RenderError {
     Output(#[from] std::io::Error),
 }
 
-impl From<PlanError> for RenderError {
-    fn from(error: PlanError) -> Self {
-        match error {
-            PlanError::DoesNotFit(message) => Self::DoesNotFit(message),
-            PlanError::Internal(message) => Self::Internal(message),
-        }
-    }
-}
-
 /// A scene made ready on one device.
 pub trait Renderer {
     /// The device as people call it; the same text as [`RenderReport::device`], known before the render because picture files
     /// carry it in their header.
     fn device(&self) -> &str;
 
-    /// Makes another frame of the scene ready in place of this one, on the same device and with the kernels that still fit. `options` are those
-    /// that the renderer was made with.
+    /// Makes another frame of the scene ready in place of this one, on the same device and with the kernels that still fit.
     ///
     /// # Errors
-    /// As for the first frame. There is no renderer any more then.
-    fn with_scene(
-        self: Box<Self>,
-        scene: &Scene,
-        options: &PlanOptions,
-        change: Change,
-    ) -> Result<Box<dyn Renderer>, RenderError>;
+    /// [`RenderError`] as for the first frame. There is no renderer any more then.
+    fn with_scene(self: Box<Self>, scene: &Scene, change: Change) -> Result<Box<dyn Renderer>, RenderError>;
 
     /// Whether samples go over all of a film of this size together. If not, its bands are finished one after the other, for want of memory.
     fn holds_whole_film(&self) -> bool;

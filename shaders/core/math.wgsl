@@ -7,9 +7,6 @@ const INVERSE_PI: f32 = 0.31830988618379067154;
 const TWO_PI: f32 = 6.28318530717958647692;
 const INFINITY_DISTANCE: f32 = 3.0e38;
 
-// Relative size of the error of a computed surface point: some 16 rounding errors of f32 (2^-24 each).
-const POINT_ERROR: f32 = 1.0e-6;
-
 fn max_coordinate(v: vec3<f32>) -> f32 {
     return max(v.x, max(v.y, v.z));
 }

@@ -1,13 +1,13 @@
 //! `gpt check`.
 
 use gpt::binary_tree::parts::KeptTrees;
-use gpt::gpu::{Fitting, select_adapter};
+use gpt::gpu::{Fitting, limits_for_plans, select_adapter};
 use gpt::learn::Settled;
 use gpt::load::{self, SceneError, printable};
 use gpt::plan::host::{HostNeeds, host_memory};
-use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanError, PlanOptions};
+use gpt::plan::{DeviceLimits, Memory, Plan, PlanError, PlanOptions};
 use gpt::reference::Integrator;
-use gpt::renderer::{DeviceChoice, RenderError};
+use gpt::renderer::{Decision, DeviceChoice, RenderError};
 use gpt::scene::{Guiding, ImportReport, LightChoice, ReportItem, Scene, SceneSummary};
 use gpt::verify;
 use serde::Serialize;
@@ -214,7 +214,7 @@ fn usual_device(options: &PlanOptions) -> Result<(String, DeviceLimits), Failure
     let Ok(adapter) = select_adapter(&DeviceChoice::Auto) else {
         return Ok(("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()));
     };
-    let limits = DeviceLimits::for_plans(&adapter, options).map_err(RenderError::from)?;
+    let limits = limits_for_plans(&adapter, options).map_err(RenderError::from)?;
     Ok((adapter.get_info().name, limits))
 }
 

@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use gpt::device::ChosenDevice;
 use gpt::load::SceneError;
 use gpt::output::PictureFormat;
-use gpt::render::choice::Choice;
 use gpt::render::stats::Stats;
 use gpt::renderer::RenderError;
 use gpt::scene::{BulkDigest, InvalidScene};
@@ -24,7 +24,7 @@ use super::{interrupt, terminal};
 /// What a frame begins with.
 pub enum Ready {
     /// The first one: a device that may still be opening.
-    Device(Choice),
+    Device(ChosenDevice),
     /// A later one: the renderer of the frame before, and that frame.
     Renderer(Box<Renderer>, Box<Scene>),
     /// The renderer of another scene, and that scene.

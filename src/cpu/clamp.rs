@@ -6,7 +6,7 @@ use crate::film::KernelLayer;
 use crate::math::luminance;
 use crate::renderer::state::{CLAMP_UNITS, MOST_CLAMP_UNITS};
 
-/// Of one pixel in one pass.
+/// Clamping of one pixel in one pass.
 pub struct Clamp {
     /// The brightest channel that a sample may have; infinite where nothing is clamped.
     limit: f64,
@@ -17,7 +17,8 @@ pub struct Clamp {
 }
 
 impl Clamp {
-    /// Of the picture, whose squares are those of its samples; other layers are left as they are.
+    /// Clamps the picture, and the layer of squares, which are those of its samples; other layers are left as
+    /// they are.
     pub fn new(setting: f64, layer: Option<KernelLayer>) -> Self {
         let applies = setting > 0.0 && matches!(layer, None | Some(KernelLayer::Squares));
         Self { limit: if applies { setting } else { f64::INFINITY }, samples: 0, taken: 0.0 }

@@ -1,4 +1,4 @@
-//! The reference's film: sums in double precision, in bands that are sampled together.
+//! The CPU's film: sums in double precision, in bands that are sampled together.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ pub struct BandSums {
     pub pixels: Vec<PixelSum>,
 }
 
-/// What the samples of a batch have in common.
+/// Facts that all samples of a batch share.
 pub struct BatchSamples<'a> {
     pub range: Range<u32>,
     pub sampling: Sampling,
@@ -59,8 +59,8 @@ impl<'a> BatchSamples<'a> {
 /// Bands over which samples go together.
 pub struct Group {
     pub bands: Vec<BandSums>,
-    /// The first sample of the sweep under way, its number of samples (0: it is not begun), and how many of the pixels, from the first, have
-    /// them.
+    /// The first sample of the sweep under way, its number of samples (0: it is not begun), and how many of
+    /// the pixels, from the first, have them.
     pub next: u32,
     pub sweep: u32,
     pub reached: u32,
@@ -89,7 +89,7 @@ impl Group {
         Self { bands, next: batch.range.start + done, sweep, reached }
     }
 
-    /// As a state to go on from.
+    /// The group as a state to go on from.
     pub fn state(&self, batch: &BatchSamples<'_>, tally: Tally) -> BatchState {
         let pixels = || self.bands.iter().flat_map(|band| &band.pixels);
         let sum = |sum: &PixelSum| [sum.radiance.x, sum.radiance.y, sum.radiance.z, sum.squared_luminance];
@@ -134,7 +134,7 @@ impl BandSums {
     }
 }
 
-/// Whether all pixels that take part have the same number of samples.
+/// Says that all pixels that take part have the same number of samples.
 pub fn are_even(bands: &[BandSums], batch: &BatchSamples<'_>, width: u32) -> bool {
     let mut counts = bands.iter().flat_map(|band| band.counts(batch, width));
     let first = counts.next();

@@ -8,10 +8,9 @@ use rayon::prelude::*;
 
 use super::clamp::Clamp;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
-use crate::film::KernelLayer;
+use crate::film::{KernelLayer, MOST_FILM_PIXELS};
 use crate::learn::{self, Reasons, Settled};
 use crate::math::luminance;
-use crate::plan::{Decision, PlanOptions};
 use crate::reference::coverage::FirstOwners;
 use crate::reference::integrator::Integrator;
 use crate::reference::intersect::Ray;
@@ -20,17 +19,14 @@ use crate::reference::rounding::Rounding;
 use crate::reference::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::renderer::sink::{Sink, keep_between};
 use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_SWEEP, Tally};
-use crate::renderer::{Batch, Change, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
+use crate::renderer::{
+    Batch, CAUTION, Change, Decision, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping,
+};
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 
-/// Pictures up to this many pixels (8K) are rendered in several passes over all bands, so that an interrupted render has every pixel;
-/// larger ones band by band, so that memory stays bounded.
-const PIXELS_IN_MEMORY: u64 = 1 << 25;
 /// Vertices after which it is looked again whether a path should be given up.
 const VERTICES_BETWEEN_LOOKS: u32 = 4096;
-/// Sweeps are planned to take so much of the time that is left.
-const CAUTION: f64 = 0.95;
 /// A pass over one band should take this long: the observer is asked after each.
 const PASS_DURATION: Duration = Duration::from_millis(150);
 
@@ -38,9 +34,9 @@ const PASS_DURATION: Duration = Duration::from_millis(150);
 #[derive(Debug, Clone)]
 pub struct ReferenceRenderer {
     integrator: Integrator,
-    /// What is made in place of the picture.
+    /// The layer that is made in place of the picture.
     layer: Option<KernelLayer>,
-    /// Most pixels whose samples go together: [`PIXELS_IN_MEMORY`] but for tests.
+    /// Most pixels whose samples go together: [`MOST_FILM_PIXELS`] but for tests.
     pixels_in_memory: u64,
     /// Why settings are what they are that the scene leaves open.
     because: Reasons,
@@ -72,7 +68,7 @@ impl PathVisitor for Watched<'_> {
     }
 }
 
-/// What a pass counted.
+/// Counts of a pass.
 #[derive(Debug, Clone, Copy, Default)]
 struct Counts {
     samples: u64,
@@ -105,7 +101,8 @@ impl ReferenceRenderer {
         Self::of_layer(scene, None)
     }
 
-    /// As [`ReferenceRenderer::new`], to make a layer in place of the picture, of a scene that is [made ready](crate::reference::layer::layer_scene) for it.
+    /// [`ReferenceRenderer::new`] to make a layer in place of the picture, of a scene that is [made
+    /// ready](crate::reference::layer::layer_scene) for it.
     pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>) -> Result<Self, RenderError> {
         let start = Instant::now();
         let Settled { scene, because, depends_on_view, integrator, .. } = learn::settle(scene)?;
@@ -114,7 +111,7 @@ impl ReferenceRenderer {
             layer,
             because,
             depends_on_view,
-            pixels_in_memory: PIXELS_IN_MEMORY,
+            pixels_in_memory: MOST_FILM_PIXELS,
             build_seconds: start.elapsed().as_secs_f64(),
             timed_samples: 0.0,
             timed_seconds: 0.0,
@@ -124,10 +121,10 @@ impl ReferenceRenderer {
     /// With a film of so many pixels at a time: those of larger pictures are rendered band by band.
     #[must_use]
     pub fn with_film_pixels(self, pixels: u64) -> Self {
-        Self { pixels_in_memory: pixels.min(PIXELS_IN_MEMORY), ..self }
+        Self { pixels_in_memory: pixels.min(MOST_FILM_PIXELS), ..self }
     }
 
-    /// What was decided, where the settings leave it open.
+    /// The decisions that the settings leave open.
     fn decisions(&self) -> Vec<Decision> {
         let settings = &self.integrator.scene().render;
         let guided = self.integrator.guide().is_some();
@@ -140,13 +137,15 @@ impl ReferenceRenderer {
         of_choice.chain(of_lights).chain(of_directions).collect()
     }
 
-    /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.
+    /// The numbers, from 1, of the shape and of its material that the ray through a pixel's centre meets when
+    /// the shutter opens.
     pub fn ids(&self, x: u32, y: u32) -> [u32; 2] {
         self.integrator.owner_at_centre(x, y).map_or([0; 2], |owner| [owner.shape as u32 + 1, owner.material as u32 + 1])
     }
 
-    /// Shape and material, by their numbers in the scene, of what stops a pixel's samples, with the share of a sample that each stops. Null
-    /// surfaces let a part through. The scene is that of a layer of first surfaces ([`crate::reference::layer::layer_scene`]).
+    /// Shape and material, by their numbers in the scene, of what stops a pixel's samples, with the share of
+    /// a sample that each stops. Null surfaces let a part through. The scene is that of a layer of first
+    /// surfaces ([`crate::reference::layer::layer_scene`]).
     pub fn owners(&self, x: u32, y: u32, points: &[SequencePoint]) -> Vec<([usize; 2], f64)> {
         let Scene { film, render, .. } = self.integrator.scene();
         let (sampling, pixel) = (Sampling::from(render), y.wrapping_mul(film.size[0]).wrapping_add(x));
@@ -158,7 +157,7 @@ impl ReferenceRenderer {
         points.iter().flat_map(owners).collect()
     }
 
-    /// What one sample of one pixel sees, as it is before the film refuses what is not finite.
+    /// The radiance of one sample of one pixel, before the film refuses what is not finite.
     pub fn radiance_of_sample(&self, x: u32, y: u32, sample: u32) -> [f64; 3] {
         self.follow(x, y, sample, &mut RayCounter::default()).to_array()
     }
@@ -170,7 +169,7 @@ impl ReferenceRenderer {
         trace
     }
 
-    /// What one sample of one pixel sees with every intermediate result rounded as `rounding` does it.
+    /// The radiance of one sample of one pixel with every intermediate result rounded as `rounding` does it.
     pub fn rounded_radiance(&self, x: u32, y: u32, sample: u32, rounding: &mut Rounding) -> DVec3 {
         self.follow(x, y, sample, rounding)
     }
@@ -291,7 +290,7 @@ impl ReferenceRenderer {
         Ok(None)
     }
 
-    /// What is left of the sweep under way.
+    /// Renders the rest of the sweep under way.
     fn sweep(
         &mut self,
         group: &mut Group,
@@ -309,7 +308,7 @@ impl ReferenceRenderer {
             if have_them >= pixels {
                 continue;
             }
-            // What is given up half done is no state to go on from.
+            // A band that is given up half done is no state to go on from.
             let untouched = sink.takes_states().then(|| group.bands[index].pixels.clone());
             let tally = self.sample_band(&mut group.bands[index], batch, &range, have_them);
             progress.add(tally);
@@ -344,7 +343,7 @@ impl ReferenceRenderer {
     }
 }
 
-/// What is done so far, and who is told.
+/// The work done so far, and the observer that is told.
 struct Progress<'a> {
     observer: &'a dyn Observer,
     total: u64,
@@ -361,7 +360,7 @@ impl Progress<'_> {
         self.observer.progress(self.report.samples, self.total);
     }
 
-    /// What was counted so far, but for these counts.
+    /// Counts so far, but for these.
     fn tally(&self, without: Counts) -> Tally {
         Tally {
             rays: self.report.rays - without.rays,
@@ -385,14 +384,9 @@ impl Renderer for ReferenceRenderer {
         "CPU reference"
     }
 
-    fn with_scene(
-        mut self: Box<Self>,
-        scene: &Scene,
-        _options: &PlanOptions,
-        change: Change,
-    ) -> Result<Box<dyn Renderer>, RenderError> {
+    fn with_scene(mut self: Box<Self>, scene: &Scene, change: Change) -> Result<Box<dyn Renderer>, RenderError> {
         let start = Instant::now();
-        // Where light is to be looked for depends on what the camera sees.
+        // Learning may depend on what the camera sees.
         if change == Change::Camera && !self.depends_on_view && self.integrator.set_camera(scene) {
             self.build_seconds = start.elapsed().as_secs_f64();
             return Ok(self);
@@ -455,8 +449,8 @@ impl Renderer for ReferenceRenderer {
             let mut group = Group::new(first_row..end, &samples, resume);
             let ended = self.render_group(&mut group, &samples, &mut progress, sink)?;
             let bands = group.bands;
-            // Where a part of the picture is rendered at a time, earlier parts cannot know that a later one ends in the middle of a sweep.
-            // Of a layer of surfaces, pixels count the samples that met something.
+            // Earlier parts of a picture cannot know that a later one ends in the middle of a sweep.
+            // Pixels of a layer of surfaces count the samples that met something.
             let counts_hits = self.layer.is_some_and(KernelLayer::is_of_surfaces);
             let with_counts = ((end - first_row) as usize) < rows.len() || counts_hits || !are_even(&bands, &samples, width);
             let is_worth_delivering = |band: &&BandSums| ended.is_none() || band.has_samples();

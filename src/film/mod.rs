@@ -8,6 +8,10 @@ pub use layer::{KernelLayer, Layer, PartChannels};
 
 use crate::math::luminance;
 
+/// Most pixels of a film that is rendered as a whole: those of an 8K picture, which take 1 GiB on a device. Larger pictures are
+/// rendered in bands, one after the other, so that memory stays bounded.
+pub const MOST_FILM_PIXELS: u64 = 1 << 25;
+
 /// Consecutive full-width rows of the picture. A renderer works through the film band by band, so that memory does not grow with
 /// the picture.
 #[derive(Debug, Clone, Default)]

@@ -24,7 +24,7 @@ const VERTEX_STRIDE: u64 = size_of::<Primitive>() as u64 / 3;
 /// there are any. Their custom data is the first primitive of each.
 pub struct Acceleration {
     pub structure: wgpu::Tlas,
-    /// What it takes on the device; estimated where that is not told.
+    /// Bytes on the device; an estimate where the device does not tell.
     pub bytes: u64,
 }
 
@@ -118,7 +118,7 @@ impl Part {
         Self { blas: device.device.create_blas(&descriptor, sizes), input, size, first_primitive }
     }
 
-    /// What to build it of.
+    /// The entry that the device builds the structure from.
     fn entry(&self) -> wgpu::BlasBuildEntry<'_> {
         let geometry = match &self.size {
             Size::Triangles(size) => BlasGeometries::TriangleGeometries(vec![BlasTriangleGeometry {

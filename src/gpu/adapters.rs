@@ -3,7 +3,7 @@
 use serde::Serialize;
 use wgpu::{Adapter, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, InstanceFlags, TextureFormat};
 
-use crate::plan::driver_identity;
+use super::limits::driver_identity;
 use crate::renderer::{DeviceChoice, RenderError};
 
 /// The interfaces worth asking: the ones whose compute shaders meet WebGPU. OpenGL is left out on purpose.
@@ -13,7 +13,7 @@ const BACKENDS: Backends = Backends::VULKAN.union(Backends::METAL).union(Backend
 /// lanes' paths wrong, without a word.
 const MOST_SOFTWARE_LANES: u32 = 8;
 
-/// What a person wants to know of an adapter before trusting it with a scene. Sizes are in bytes.
+/// Facts about an adapter that a person wants to know before trusting it with a scene. Sizes are in bytes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AdapterSummary {
     pub name: String,
@@ -42,7 +42,7 @@ pub struct AdapterSummary {
     pub timestamps: bool,
     /// Kernels can ask an acceleration structure of the device's own (`--traversal ray-query`).
     pub ray_queries: bool,
-    /// What keeps the renderer from using it; `auto` passes it over.
+    /// The reason why the renderer cannot use the adapter; `auto` passes it over.
     pub unusable: Option<String>,
 }
 
@@ -144,7 +144,8 @@ fn adapters_best_first() -> Vec<Adapter> {
     adapters
 }
 
-/// The same GPU shows up once per interface on Windows; the interface the project is measured on goes first.
+/// Rank of an interface: on Windows a GPU shows up once per interface, and the one that the project is
+/// measured on goes first.
 fn backend_rank(backend: Backend) -> u8 {
     match backend {
         Backend::Vulkan => 0,
@@ -195,7 +196,7 @@ fn summarise(adapter: &Adapter) -> AdapterSummary {
     }
 }
 
-/// Whether one storage texture of this format can be read and written by the same shader.
+/// Says that one storage texture of this format can be read and written by the same shader.
 pub fn can_read_and_write(adapter: &Adapter, format: TextureFormat) -> bool {
     adapter.features().contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
         && adapter.get_texture_format_features(format).flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE)

@@ -50,12 +50,12 @@ impl BandProgress {
         self.next_pixel > 0
     }
 
-    /// What of it has samples.
+    /// The part of the band that has samples.
     pub fn reached(&self, with_counts: bool) -> Reached {
         Reached { first_row: self.first_row, rows: self.rows, pixels: self.reached, with_counts }
     }
 
-    /// As a state, with the sums of its rows.
+    /// The band as a state, with the sums of its rows.
     pub fn state(&self, batch: &Batch<'_>, width: u32, film: FilmState, tally: Tally) -> BatchState {
         let first = (self.first_row * width) as usize;
         let end = first + (self.rows * width) as usize;
@@ -77,7 +77,7 @@ impl BandProgress {
     }
 }
 
-/// What all bands of a batch have in common.
+/// Facts that all bands of a batch share.
 pub struct Sweeps<'a> {
     pub batch: &'a Batch<'a>,
     pub samples: Range<u32>,
@@ -85,7 +85,7 @@ pub struct Sweeps<'a> {
     pub stopping: Stopping<'a>,
     /// Is told how many samples of the band are done.
     pub progress: &'a dyn Fn(u64),
-    /// What was counted before this render.
+    /// Counts from before this render.
     pub before: Tally,
     /// Samples of the bands that are over, over all pixels, those before this render included.
     pub finished: &'a Cell<u64>,

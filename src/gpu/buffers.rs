@@ -24,7 +24,7 @@ use crate::plan::{MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 pub const VERTICES_PER_SUBMISSION: u32 = 32;
 /// Bytes of the statistics; the list of a band's pixels follows them.
 pub const STATISTICS_BYTES: u64 = 4 * COUNTER_WORDS as u64;
-/// Where the number of a pass's pixels that were taken stands among them, in bytes.
+/// Offset in the statistics, in bytes, of the number of a pass's pixels that were taken.
 pub const TAKEN_PIXELS: u64 = 4 * TAKEN_COUNTER as u64;
 /// Distance between the parameters of successive vertices: the largest alignment a device may ask for.
 const VERTEX_STRIDE: usize = 256;
@@ -129,7 +129,7 @@ impl Buffers {
         self.buffers.get(&(binding as u32))
     }
 
-    /// What a bind group needs for binding `number`.
+    /// The resource of a bind group for binding `number`.
     pub fn resource(&self, number: u32) -> Option<wgpu::BindingResource<'_>> {
         if let Some(half) = number.checked_sub(Binding::FilmSum as u32).filter(|half| *half < 2) {
             return self.film.resource(half as usize);

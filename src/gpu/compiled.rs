@@ -15,7 +15,7 @@ pub struct UsedBinding {
 #[derive(Clone)]
 pub struct CompiledStage {
     pub stage: &'static Stage,
-    /// What it was compiled from.
+    /// The text that the kernel was compiled from.
     pub source: Arc<str>,
     pub is_checked: bool,
     pub used: Vec<UsedBinding>,

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use super::compiled::CompiledKernels;
 use super::driver_thread::{DriverThread, Fate, OPENING_THREAD, keep_panics_quiet, message};
-use crate::plan::{DeviceLimits, PlanOptions, driver_identity};
+use super::limits::{driver_identity, limits_for_plans};
+use crate::plan::{DeviceLimits, PlanOptions};
 use crate::renderer::{DeviceChoice, RenderError};
 
 /// A device with its queue, and the first error it reported. Clones are the same device.
@@ -24,11 +25,12 @@ pub struct Device {
     pub(super) kernels: Arc<CompiledKernels>,
 }
 
-/// What a submission may take, where nothing else is said.
+/// The time that a submission may take, where nothing else is said.
 pub const DEFAULT_TIMEOUT: Duration = Duration::from_secs(60);
-/// The same of software devices, which compile kernels on the processor: a minute for a scene of many features, more where others keep it busy.
+/// The time that a submission may take on software devices, which compile kernels on the processor: a minute
+/// for a scene of many features, more where others keep it busy.
 const SOFTWARE_TIMEOUT: Duration = Duration::from_secs(300);
-/// What wgpu says where a device is given up because its memory is used up.
+/// The words of wgpu where a device is given up because its memory is used up.
 const OUT_OF_MEMORY: &str = "Out of memory";
 
 /// A device that a thread of its own opens, which takes a tenth of a second or more.
@@ -56,7 +58,7 @@ impl OpeningDevice {
         }
     }
 
-    /// What is known of the device before it is waited for.
+    /// Limits of the device; None before it was waited for.
     pub fn limits(&self) -> Option<&DeviceLimits> {
         match &self.0 {
             Opening::Open(device) => Some(&device.limits),
@@ -72,7 +74,7 @@ impl OpeningDevice {
     /// The device, once it is open.
     ///
     /// # Errors
-    /// As [`Device::open_for`].
+    /// [`RenderError`] as of [`Device::open_for`].
     pub fn wait(mut self) -> Result<Device, RenderError> {
         match &mut self.0 {
             Opening::Open(device) => Ok(Device::clone(device)),
@@ -96,7 +98,7 @@ impl Drop for OpeningDevice {
         if let Opening::Thread(thread) = &mut self.0
             && let Some(thread) = thread.take()
         {
-            // Whether it opened does not matter any more.
+            // The outcome does not matter any more.
             let _ = thread.join();
         }
     }
@@ -117,13 +119,14 @@ impl Device {
         Self::open_for(choice, &PlanOptions::default())
     }
 
-    /// As [`Device::open`], with what plans with these options need besides.
+    /// [`Device::open`] with the features that plans with these options need besides.
     ///
     /// # Errors
-    /// As [`Device::open`]; [`RenderError::DoesNotFit`] where the adapter lacks what they ask for.
+    /// [`RenderError`] as of [`Device::open`]; [`RenderError::DoesNotFit`] where the adapter lacks what they
+    /// ask for.
     pub fn open_for(choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
         let adapter = super::adapters::select_adapter(choice)?;
-        let limits = DeviceLimits::for_plans(&adapter, options)?;
+        let limits = limits_for_plans(&adapter, options)?;
         let mut features = wgpu::Features::empty();
         if limits.read_write_rgba32float {
             features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
@@ -188,7 +191,7 @@ impl Device {
         }
     }
 
-    /// Whether nothing more can be asked of the device.
+    /// Says that nothing more can be asked of the device.
     pub fn is_lost(&self) -> bool {
         let failure = self.failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         failure.is_some()
@@ -214,7 +217,7 @@ impl Device {
     /// Submits commands and waits until they are done.
     ///
     /// # Errors
-    /// What the device reports; [`RenderError::DeviceLost`] where it does not answer in time.
+    /// [`RenderError`] that the device reports; [`RenderError::DeviceLost`] where it does not answer in time.
     pub fn submit_and_wait(&self, commands: wgpu::CommandBuffer) -> Result<(), RenderError> {
         self.wait_after(Some(commands))
     }
@@ -222,7 +225,7 @@ impl Device {
     /// Waits for everything submitted.
     ///
     /// # Errors
-    /// As [`Device::submit_and_wait`].
+    /// [`RenderError`] as of [`Device::submit_and_wait`].
     pub fn wait(&self) -> Result<(), RenderError> {
         self.wait_after(None)
     }
@@ -237,7 +240,7 @@ impl Device {
             }
             device.poll(wgpu::PollType::Wait { submission_index: None, timeout }).map(|_| ())
         });
-        // Of what went wrong, the first error says most.
+        // The first error says most about what went wrong.
         self.check()?;
         let failure = match polled {
             Ok(Ok(())) => return Ok(()),
@@ -274,7 +277,8 @@ impl Device {
         self.read_mapped(buffer, buffer.size(), <[u8]>::to_vec)
     }
 
-    /// What `look` makes of the first bytes of a buffer that can be mapped, once everything submitted is done.
+    /// The result of `look` at the first bytes of a buffer that can be mapped, once everything submitted is
+    /// done.
     pub fn read_mapped<T>(&self, buffer: &wgpu::Buffer, bytes: u64, look: impl FnOnce(&[u8]) -> T) -> Result<T, RenderError> {
         buffer.map_async(wgpu::MapMode::Read, ..bytes, |_| {});
         self.wait()?;
@@ -291,7 +295,8 @@ fn remember(slot: &Mutex<Option<Failure>>, failure: Failure) {
     slot.get_or_insert(failure);
 }
 
-/// Where it is shorter than `--device-timeout`, the program was to end.
+/// The message that a device did not answer. A wait shorter than `--device-timeout` means that the program
+/// was to end.
 fn no_answer(waited: std::time::Duration) -> String {
     format!("it did not answer for {} s (--device-timeout)", (waited.as_secs_f64() * 10.0).round() / 10.0)
 }

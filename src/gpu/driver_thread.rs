@@ -31,7 +31,7 @@ pub fn end_soon() {
 
 type Job = Box<dyn FnOnce() + Send>;
 
-/// What became of a piece of work.
+/// The fate of a piece of work.
 #[derive(Debug)]
 pub enum Fate {
     /// The driver panicked, and said this.
@@ -57,7 +57,7 @@ impl DriverThread {
         Self { jobs: started.ok().map(|_| sender), limit }
     }
 
-    /// What a piece of work may take.
+    /// The time that a piece of work may take.
     pub fn limit(&self) -> Duration {
         self.limit
     }
@@ -91,7 +91,7 @@ impl DriverThread {
     }
 }
 
-/// What a panic said.
+/// The message of a panic.
 pub fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<String>().map(String::as_str).or_else(|| payload.downcast_ref::<&str>().copied());
     text.unwrap_or("no reason was given").to_owned()

@@ -16,7 +16,7 @@ pub type Halves = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 /// Rows of the film, counted within the band.
 ///
 /// # Errors
-/// What the device reports.
+/// [`RenderError`] that the device reports.
 pub fn read_rows(device: &Device, film: &Film, width: u32, rows: Range<u32>) -> Result<Halves, RenderError> {
     let [sums, compensations] = &film.halves;
     Ok((
@@ -28,7 +28,7 @@ pub fn read_rows(device: &Device, film: &Film, width: u32, rows: Range<u32>) -> 
 /// All sums of a band.
 ///
 /// # Errors
-/// What the device reports.
+/// [`RenderError`] that the device reports.
 pub fn read_band(device: &Device, film: &Film, [width, rows]: [u32; 2]) -> Result<FilmState, RenderError> {
     let pixels = width as usize * rows as usize;
     let (mut sums, mut compensations) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
@@ -43,14 +43,14 @@ pub fn read_band(device: &Device, film: &Film, [width, rows]: [u32; 2]) -> Resul
 /// Puts the first sums of `state` into the film, so many rows of them.
 ///
 /// # Errors
-/// What the device reports.
+/// [`RenderError`] that the device reports.
 pub fn write_band(device: &Device, film: &Film, [width, rows]: [u32; 2], state: &FilmState) -> Result<(), RenderError> {
     for rows in runs_of_rows(width, rows) {
         let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
         let (sums, compensations): Halves = pixels.map(|pixel| state.single(pixel)).unzip();
         write_half(device, &film.halves[0], width, rows.clone(), &sums);
         write_half(device, &film.halves[1], width, rows, &compensations);
-        // What is on its way stays small.
+        // The upload under way stays small.
         device.submit_and_wait(device.device.create_command_encoder(&Default::default()).finish())?;
     }
     Ok(())
@@ -116,14 +116,14 @@ fn read_half(
     Ok(pixels)
 }
 
-/// What of a band was rendered.
+/// The part of a band that was rendered.
 #[derive(Debug, Clone, Copy)]
 pub struct Reached {
     pub first_row: u32,
     pub rows: u32,
     /// Pixels of the band, of those that take part, that have samples: the first so many. Of the others the film may hold an earlier batch's.
     pub pixels: u32,
-    /// Whether bands say how many samples each pixel has.
+    /// Bands say how many samples each pixel has.
     pub with_counts: bool,
 }
 
@@ -131,7 +131,7 @@ pub struct Reached {
 /// nothing: what the film holds of them is an earlier batch's.
 ///
 /// # Errors
-/// What `read` and `on_band` report.
+/// [`RenderError`] that `read` and `on_band` report.
 pub fn deliver_band(
     width: u32,
     reached: &Reached,
@@ -144,7 +144,7 @@ pub fn deliver_band(
         let first_row = reached.first_row + rows.start;
         let (sums, compensations) = read(rows)?;
         let band = means(&sums, &compensations, [width, first_row], reached, &mut pixels_before, batch);
-        // Of a layer of surfaces, rows may well have met nothing.
+        // Rows of a layer of surfaces may well have met nothing.
         if band.counts.is_none() || batch.selection.is_none() || band.counts.iter().flatten().any(|count| *count > 0) {
             on_band(band)?;
         }
@@ -164,7 +164,7 @@ fn means(
     let columns = width as usize;
     let first_pixel_of = |row: usize| (first_row as usize + row) * columns;
     let rows = sums.len() / columns;
-    // Of each row, how many pixels that take part stand above it.
+    // Pixels above each row that take part.
     let before: Vec<u32> = (0..rows)
         .map(|row| {
             let first = first_pixel_of(row);

@@ -1,4 +1,4 @@
-//! Where the film stands on the device, and what it is read through.
+//! The film in the device's memory, and the buffer that it is read through.
 
 use wgpu::{BufferUsages, TextureFormat};
 
@@ -7,7 +7,7 @@ use crate::plan::{FilmStorage, Plan, memory};
 
 /// Pixels that are read at once, in whole rows: what is copied on the way stays small.
 const PIXELS_AT_ONCE: u32 = 1 << 20;
-/// Of one half of the film.
+/// Bytes of a pixel in one half of the film.
 pub const PIXEL_BYTES: u32 = 16;
 
 /// One of the two halves of the film.
@@ -21,7 +21,8 @@ pub struct Film {
     /// Sums, and what their rounding lost.
     pub halves: [FilmHalf; 2],
     views: [Option<wgpu::TextureView>; 2],
-    /// What the host reads rows of either half through. It is made beforehand, because drivers take a while to pin memory.
+    /// The buffer that the host reads rows of either half through. It is made beforehand, because drivers
+    /// take a while to pin memory.
     pub readback: wgpu::Buffer,
 }
 
@@ -38,7 +39,7 @@ impl Film {
         Self { halves, views, readback }
     }
 
-    /// What a bind group needs for one half.
+    /// The resource of a bind group for one half.
     pub fn resource(&self, half: usize) -> Option<wgpu::BindingResource<'_>> {
         Some(match (&self.halves[half], &self.views[half]) {
             (FilmHalf::Buffer(buffer), _) => buffer.as_entire_binding(),

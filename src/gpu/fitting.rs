@@ -21,8 +21,8 @@ pub struct Fitting<'a> {
 }
 
 impl<'a> Fitting<'a> {
-    /// Learns about the scene, and packs it for a device with these limits, if they are known yet. `kept`: the trees of an
-    /// earlier frame.
+    /// Learns about the scene, and packs it for a device with these limits, if they are known yet. `kept`:
+    /// the trees of an earlier frame.
     ///
     /// # Errors
     /// [`RenderError`] for a scene that is not valid, and for what does not fit the packed form.
@@ -40,9 +40,9 @@ impl<'a> Fitting<'a> {
         Ok(Self { settled, packed, options: Cow::Borrowed(options), traversal })
     }
 
-    /// Packs the scene again without something that nobody asked for, where it did not fit the device: without cells of lights,
-    /// which take a buffer more, or else without ray queries. Nothing is learned again. Returns whether there was something to
-    /// give up.
+    /// Packs the scene again without something that nobody asked for, where it did not fit the device:
+    /// without cells of lights, which take a buffer more, or else without ray queries. Nothing is learned
+    /// again. Returns whether there was something to give up.
     ///
     /// # Errors
     /// [`RenderError`] for what does not fit the packed form.

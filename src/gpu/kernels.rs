@@ -17,7 +17,7 @@ pub struct Kernel {
     pub stage: &'static Stage,
     pipeline: wgpu::ComputePipeline,
     bind_group: wgpu::BindGroup,
-    /// It reads the vertex's parameters, so its bind group takes their offset.
+    /// The kernel reads the vertex's parameters, so its bind group takes their offset.
     takes_vertex: bool,
 }
 

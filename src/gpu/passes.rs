@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use crate::plan::{MAX_SAMPLES_PER_PASS, StageMode};
 
-/// What a submission should take: short enough for any driver's watchdog and for a prompt Ctrl-C, long enough to hide its own cost.
+/// The time that a submission should take: short enough for any driver's watchdog and for a prompt Ctrl-C,
+/// long enough to hide its own cost.
 const TARGET: Duration = Duration::from_millis(200);
 /// Samples per pixel and pass that let a fused kernel's lanes start new paths without waiting for each other.
 const FUSED_SAMPLES: u32 = 16;
@@ -40,7 +41,7 @@ impl Pass {
     }
 }
 
-/// What limits passes beside time.
+/// Limits of passes beside time.
 #[derive(Debug, Clone, Copy)]
 pub struct PassLimits {
     pub stages: StageMode,

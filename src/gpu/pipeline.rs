@@ -40,13 +40,13 @@ impl Step<'_> {
     }
 }
 
-/// What a plan became on a device.
+/// A plan that is ready to run on a device.
 pub struct Pipeline {
     pub device: Device,
     pub plan: Plan,
     pub buffers: Buffers,
     kernels: Vec<Kernel>,
-    /// Of the film, in pixels.
+    /// Width of the film in pixels.
     pub width: u32,
     /// Vertices of a path at most; None: no limit.
     max_vertices: Option<u32>,
@@ -61,10 +61,11 @@ impl Pipeline {
     /// Uploads the scene and compiles the plan's stages. `start` is when packing began.
     ///
     /// # Errors
-    /// What the device or the compiler reports.
+    /// [`RenderError`] that the device or the compiler reports.
     pub fn new(device: Device, plan: Plan, scene: &Scene, packed: &PackedScene, start: Instant) -> Result<Self, RenderError> {
         let width = scene.film.size[0];
-        // Where there are null surfaces, whose vertices end no edge, a path's depth does not bound the number of its vertices; most paths
+        // With null surfaces, whose vertices end no edge, a path's depth does not bound the number of its
+        // vertices; most paths
         // still end by then.
         let null_surfaces = plan.switches.enabled.contains("NULL_SURFACES");
         let depth = Some(scene.render.max_depth).filter(|depth| *depth > 0);
@@ -91,7 +92,7 @@ impl Pipeline {
         }
     }
 
-    /// Whether the kernels look up their pixels in a list.
+    /// Says that the kernels look up their pixels in a list.
     pub fn takes_pixel_list(&self) -> bool {
         self.plan.switches.enabled.contains("PIXEL_LIST")
     }

@@ -1,4 +1,4 @@
-//! Where a render's time goes, stage by stage, and how full the pool of paths is, vertex by vertex.
+//! The time that each stage of a render takes, and how full the pool of paths is, vertex by vertex.
 
 use super::device::Device;
 use super::passes::Pass;
@@ -9,7 +9,7 @@ use crate::plan::{MAX_SAMPLES_PER_PASS, StageMode};
 use crate::renderer::RenderError;
 use crate::sampling::Sampling;
 
-/// What one stage took in one pass, over all vertices.
+/// The time of one stage in one pass, over all vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StageTime {
     /// The kernel's entry point.
@@ -101,7 +101,7 @@ impl<'a> Recorder<'a> {
 /// left out. The film afterwards holds nothing of use. None where the device has no time stamps.
 ///
 /// # Errors
-/// What the device reports.
+/// [`RenderError`] that the device reports.
 pub(super) fn profile(pipeline: &Pipeline, sampling: &Sampling) -> Result<Option<Profile>, RenderError> {
     let Pipeline { device, plan, width, .. } = pipeline;
     if !device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {

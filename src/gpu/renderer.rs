@@ -19,6 +19,7 @@ use crate::binary_tree::parts::KeptTrees;
 use crate::film::Band;
 use crate::packed::PackedScene;
 use crate::packed::environment::PackedEnvironment;
+use crate::packed::hierarchy::Traversal;
 use crate::packed::view::View;
 use crate::plan::bindings::Binding;
 use crate::plan::counters::{CLAMPED_COUNTER, CLAMPED_UNITS_COUNTER, COUNTER_WORDS, RAYS_COUNTER, REFUSED_COUNTER};
@@ -38,12 +39,14 @@ pub struct GpuRenderer {
     /// Which of the scene's materials the packed ones are.
     scene_materials: Vec<MaterialId>,
     pub(super) sizer: PassSizer,
-    /// What a camera that moves is put together with.
+    /// The centre and the environment that a camera which moves is packed with.
     center: DVec3,
     environment: PackedEnvironment,
     /// Paths were traced before the first sample to learn about the scene.
     depends_on_view: bool,
-    /// What the next frame's hierarchy may be made of.
+    /// Options of this plan, and of the plans of further frames.
+    options: PlanOptions,
+    /// Trees that the next frame's hierarchy may be made of.
     trees: KeptTrees,
 }
 
@@ -56,7 +59,7 @@ impl GpuRenderer {
         Self::from_opening_device(OpeningDevice::begin(choice, options), scene, options)
     }
 
-    /// As [`GpuRenderer::new`], on a device that is already open.
+    /// [`GpuRenderer::new`] on a device that is already open.
     ///
     /// # Errors
     /// [`RenderError::DoesNotFit`] where the scene is too large for the device.
@@ -64,7 +67,7 @@ impl GpuRenderer {
         Self::from_opening_device(OpeningDevice::is_open(device), scene, options)
     }
 
-    /// As [`GpuRenderer::from_opening_device`], with the trees of an earlier frame.
+    /// [`GpuRenderer::from_opening_device`] with the trees of an earlier frame.
     fn with_trees(
         opening: OpeningDevice,
         scene: &Scene,
@@ -108,14 +111,15 @@ impl GpuRenderer {
             center: scene.center(),
             environment: packed.environment,
             depends_on_view: settled.depends_on_view,
+            options: options.clone(),
             trees,
         })
     }
 
-    /// As [`GpuRenderer::new`], on a device that opens while the scene is packed.
+    /// [`GpuRenderer::new`] on a device that opens while the scene is packed.
     ///
     /// # Errors
-    /// As [`GpuRenderer::new`].
+    /// [`RenderError`] as of [`GpuRenderer::new`].
     pub fn from_opening_device(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
         Self::with_trees(opening, scene, options, KeptTrees::default())
     }
@@ -142,15 +146,16 @@ impl GpuRenderer {
         }
     }
 
-    /// What was decided for this scene on this device.
+    /// The plan for this scene on this device.
     pub fn plan(&self) -> &Plan {
         &self.pipeline.plan
     }
 
-    /// Where the time of a pass goes; None where the device has no time stamps. The film afterwards holds nothing of use.
+    /// The time that each stage of a pass takes; None where the device has no time stamps. The film
+    /// afterwards holds nothing of use.
     ///
     /// # Errors
-    /// What the device reports.
+    /// [`RenderError`] that the device reports.
     pub fn profile(&self) -> Result<Option<Profile>, RenderError> {
         profile::profile(&self.pipeline, &self.sampling)
     }
@@ -197,7 +202,7 @@ impl GpuRenderer {
         deliver_band(width, reached, batch, &read, on_band)
     }
 
-    /// What was counted since the batch began, `samples` of them in this band.
+    /// Counts since the batch began, with `samples` in this band.
     pub(super) fn tally(&self, samples: u64, sweeps: &Sweeps<'_>) -> Result<Tally, RenderError> {
         let words = self.pipeline.read_words::<{ COUNTER_WORDS as usize }>(Binding::Statistics)?;
         let counted = |counter: u32| u64::from(words[counter as usize + 1]) << 32 | u64::from(words[counter as usize]);
@@ -228,13 +233,8 @@ impl Renderer for GpuRenderer {
         &self.pipeline.device.name
     }
 
-    fn with_scene(
-        mut self: Box<Self>,
-        scene: &Scene,
-        options: &PlanOptions,
-        change: Change,
-    ) -> Result<Box<dyn Renderer>, RenderError> {
-        // Where light is to be looked for depends on what the camera sees.
+    fn with_scene(mut self: Box<Self>, scene: &Scene, change: Change) -> Result<Box<dyn Renderer>, RenderError> {
+        // Learning may depend on what the camera sees.
         if change == Change::Camera && !self.depends_on_view && scene.center() == self.center {
             let start = Instant::now();
             let view = View::new(&scene.centered(), &self.environment);
@@ -244,10 +244,10 @@ impl Renderer for GpuRenderer {
             return Ok(self);
         }
         let device = self.pipeline.device.clone();
-        let trees = std::mem::take(&mut self.trees);
+        let (options, trees) = (std::mem::take(&mut self.options), std::mem::take(&mut self.trees));
         // Its memory is free before the next scene's is taken.
         drop(self);
-        Ok(Box::new(Self::with_trees(OpeningDevice::is_open(&device), scene, options, trees)?))
+        Ok(Box::new(Self::with_trees(OpeningDevice::is_open(&device), scene, &options, trees)?))
     }
 
     fn holds_whole_film(&self) -> bool {
@@ -306,7 +306,7 @@ impl Renderer for GpuRenderer {
         let tally = self.tally(0, &sweeps)?;
         Ok(RenderReport {
             device: self.pipeline.device.name.clone(),
-            traversal: self.pipeline.plan.traversal_in_use(),
+            hierarchy: self.pipeline.plan.traversal_in_use().map(Traversal::key),
             decisions: self.pipeline.plan.decisions.clone(),
             compiled_in: self.pipeline.plan.switches.enabled.iter().copied().collect(),
             rays: tally.rays,

@@ -1,4 +1,4 @@
-//! What a band was like a while ago, kept on the host: a device that is lost takes its film along.
+//! A band as it was a while ago, kept on the host: a device that is lost takes its film along.
 
 use std::io;
 use std::time::{Duration, Instant};
@@ -15,7 +15,7 @@ const SHARE: u32 = 100;
 
 /// The last snapshot of a band, if there is one.
 pub struct Snapshot {
-    /// What of the band was rendered, and its sums.
+    /// The part of the band that was rendered, and its sums.
     kept: Option<(Reached, BatchState)>,
     taken: Instant,
     took: Duration,
@@ -27,7 +27,7 @@ impl Snapshot {
         Self { kept: None, taken: Instant::now(), took: Duration::ZERO }
     }
 
-    /// Whether it is time for the next one.
+    /// Says that it is time for the next snapshot.
     pub fn is_due(&self) -> bool {
         self.taken.elapsed() >= INTERVAL.max(self.took * SHARE)
     }
@@ -35,7 +35,7 @@ impl Snapshot {
     /// Takes one. If that fails, the last one stays.
     ///
     /// # Errors
-    /// What `read` reports.
+    /// [`RenderError`] that `read` reports.
     pub fn take(
         &mut self,
         reached: Reached,
@@ -56,7 +56,7 @@ impl Snapshot {
     /// Hands over what the band was like, from this row of the picture on.
     ///
     /// # Errors
-    /// What the receiver says.
+    /// [`io::Error`] of the receiver.
     pub fn deliver(
         &self,
         width: u32,

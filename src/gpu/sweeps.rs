@@ -12,10 +12,7 @@ use super::snapshot::Snapshot;
 use crate::plan::bindings::Binding;
 use crate::renderer::sink::{Sink, keep_between};
 use crate::renderer::state::{BatchState, FilmState, Tally};
-use crate::renderer::{Ending, RenderError};
-
-/// Sweeps are planned to take so much of the time that is left.
-const CAUTION: f64 = 0.95;
+use crate::renderer::{CAUTION, Ending, RenderError};
 
 /// A device that had memory enough to begin, and then has not, fails as one that is lost does: what was rendered is saved, and it may do better another
 /// time.
@@ -47,7 +44,7 @@ impl GpuRenderer {
             }
         }
         if !probes.is_empty() {
-            // What they counted, the sweeps count again.
+            // Sweeps count again what the probes counted.
             self.pipeline.write(Binding::Statistics, &[0; STATISTICS_BYTES as usize]);
         }
         Ok(None)
@@ -111,7 +108,8 @@ impl GpuRenderer {
         Ok(None)
     }
 
-    /// What was counted when a band begins that is not the first, and whether the render ends before it; `begun` is the state without the counts.
+    /// The counts when a band begins that is not the first, and the reason if the render ends before it;
+    /// `begun` is the state without the counts.
     pub(super) fn between_bands(
         &self,
         begun: &BatchState,
@@ -142,7 +140,7 @@ impl GpuRenderer {
         let has_begun = band.samples_done > 0 || sweeps.finished.get() > 0 || sweeps.before.samples > 0;
         let ended = match rendered.map_err(|error| if has_begun { midway(error) } else { error }) {
             Err(error @ RenderError::DeviceLost(_)) => {
-                // What was finished before the band counts, where nothing was read of it.
+                // Bands that were finished before count, where nothing of this one was read.
                 keep_between(sink, true, snapshot.state().unwrap_or(begun))?;
                 snapshot.deliver(width, batch, 0, &mut |band| sink.band(band))?;
                 return Err(error);
@@ -153,7 +151,7 @@ impl GpuRenderer {
             sink.state(self.state(band, sweeps)?)?;
         }
         if band.reached > 0 || band.pixels == 0 {
-            // Of a layer of surfaces, pixels count the samples that met something.
+            // Pixels of a layer of surfaces count the samples that met something.
             let counts_hits = self.plan().switches.enabled.contains("LAYER_OF_SURFACES");
             let reached = band.reached(is_cut || band.is_uneven() || counts_hits);
             let mut next_row = band.first_row;
@@ -163,7 +161,7 @@ impl GpuRenderer {
             });
             if let Err(error) = delivered.map_err(midway) {
                 if matches!(error, RenderError::DeviceLost(_)) {
-                    // What was handed over of the band is not handed over again.
+                    // Rows of the band that were handed over are not handed over again.
                     if next_row == band.first_row {
                         keep_between(sink, true, snapshot.state().unwrap_or(begun))?;
                     }

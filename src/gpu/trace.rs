@@ -1,4 +1,4 @@
-//! What happens along one path on the device, vertex by vertex.
+//! The events along one path on the device, vertex by vertex.
 
 use super::film::read_rows;
 use super::passes::Pass;
@@ -32,7 +32,7 @@ pub struct TracedLight {
     pub bsdf_pdf: f32,
     pub weight: f32,
     pub visible: bool,
-    /// What it adds to the path's radiance where it is visible.
+    /// The light's part of the path's radiance where it is visible.
     pub unshadowed: [f32; 3],
 }
 
@@ -54,7 +54,7 @@ pub struct TracedSample {
 pub struct TracedVertex {
     /// Position, shading normal on wo's side, and which of the scene's materials; None: the ray left the scene.
     pub surface: Option<([f32; 3], [f32; 3], MaterialId)>,
-    /// Of the ray that led here.
+    /// Direction of the ray that led here.
     pub direction: [f32; 3],
     pub throughput: [f32; 3],
     pub found: Option<TracedFind>,

@@ -1,16 +1,18 @@
 //! Learning where light comes from, before the first sample of the picture.
 //!
-//! Training paths have random numbers of their own, so the picture's samples do not depend on them and are unbiased whatever was learned.
-//! They are traced in rounds, each twice as large as the one before and guided by what that one found, because light that is hard to find is
-//! found sooner so. The last two rounds make the guide. Their number is fixed and their results are put together in order, so the guide
-//! depends on the scene and its settings alone: every device, every part of a picture and every render that goes on has the same.
+//! Training paths have random numbers of their own, so the picture's samples do not depend on them and are
+//! unbiased whatever was learned. They are traced in rounds, each twice as large as the one before and guided
+//! by what that one found, because light that is hard to find is found sooner so. The last two rounds make
+//! the guide. Their number is fixed and their results are put together in order, so the guide depends on the
+//! scene and its settings alone: every device, every part of a picture and every render that goes on has the
+//! same.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::paths::{follow, pixel_of};
+use super::paths::{MOST_VERTICES, follow, pixel_of};
 use super::trial;
 use super::work_of_path;
 use crate::reference::bsdf::{BsdfSample, Density, View};
@@ -25,33 +27,34 @@ use crate::scene::{Guiding, NumberOrAuto, PixelSampler, SamplerKind, Scene};
 
 /// Rounds, each of twice as many paths as the one before.
 const ROUNDS: usize = 5;
-/// After so many of them a trial run looks whether guiding pays, where it has to. Error × cost with the guide, over that without one, may be so much at
-/// most, or learning ends and paths are not guided. A guide still improves, so early looks allow more.
+/// After so many of them a trial run looks whether guiding pays, where it has to. Error × cost with the
+/// guide, over that without one, may be so much at most, or learning ends and paths are not guided. A guide
+/// still improves, so early looks allow more.
 const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.85), (ROUNDS, MOST_LOSS)];
-/// What a guide of all rounds may leave at most: learning takes time as well.
+/// Largest such ratio for a guide of all rounds: learning takes time as well.
 const MOST_LOSS: f64 = 0.8;
 /// Paths of the last round for each pixel of the picture, where the scene does not say how many there are.
 const PATHS_OF_PIXEL: u32 = 8;
 const FEWEST_PATHS: u32 = 1 << 14;
 const MOST_PATHS: u32 = 1 << 19;
-/// Work of all rounds at most: a guide may be asked to learn for minutes, and does where paths take what they usually do.
+/// Work of all rounds at most: a guide may be asked to learn for minutes, and does where paths take what they
+/// usually do.
 const MOST_WORK: f64 = 600.0 * work::SECOND as f64;
-/// A path that takes more meets thousands of surfaces in one place; then learning takes no longer than a trial run does.
+/// A path that takes more meets thousands of surfaces in one place; then learning takes no longer than a
+/// trial run does.
 const UNUSUAL_WORK: f64 = 16_384.0;
 const MOST_WORK_OF_UNUSUAL: f64 = 8.0 * work::SECOND as f64;
 /// Paths that one task traces.
 const PATHS_AT_ONCE: u32 = 256;
-/// What a surface sends on that can be reckoned with.
+/// Largest light per throughput that a surface is noted to send on.
 const LARGEST_SENT_ON: f64 = 1e30;
-/// Vertices after which a training path is given up.
-const MOST_VERTICES: u32 = 64;
 
-/// What came of training.
+/// The result of training.
 #[derive(Debug, Clone, Default)]
 pub struct Learned {
     /// None where paths are not guided.
     pub guide: Option<Arc<Guide>>,
-    /// What was decided and why, where guiding was asked for.
+    /// The reason why paths are guided or are not, where guiding was asked for.
     pub because: Option<String>,
 }
 
@@ -103,8 +106,8 @@ fn rounds(scene: &Scene) -> [u32; ROUNDS] {
     std::array::from_fn(|round| (last >> (ROUNDS - 1 - round)).next_multiple_of(PATHS_AT_ONCE))
 }
 
-/// The rounds, or smaller ones where paths take so much work that all would take longer than a person waits. None: even those would, or a guide that
-/// has to pay would be learned from fewer paths than it is worth.
+/// The rounds, or smaller ones where paths take so much work that all would take longer than a person waits.
+/// None: even those would, or a guide that has to pay would be learned from fewer paths than it is worth.
 fn affordable(rounds: [u32; ROUNDS], of_path: f64, has_to_pay: bool) -> Option<[u32; ROUNDS]> {
     let most = if of_path > UNUSUAL_WORK { MOST_WORK_OF_UNUSUAL } else { MOST_WORK };
     let fits = |rounds: &[u32; ROUNDS]| f64::from(rounds.iter().sum::<u32>()) * of_path <= most;
@@ -115,7 +118,7 @@ fn affordable(rounds: [u32; ROUNDS], of_path: f64, has_to_pay: bool) -> Option<[
         .map(|rounds| rounds.map(|count| count.next_multiple_of(PATHS_AT_ONCE)))
 }
 
-/// What came of all rounds, or of those up to which it may pay to go on.
+/// The result of all rounds, or of those up to which it may pay to go on.
 struct Trained {
     guide: Option<Arc<Guide>>,
     /// How many paths the guide is made of.
@@ -188,12 +191,12 @@ struct Departure {
 struct Trainee {
     arrivals: Vec<Arrival>,
     departures: Vec<Departure>,
-    /// Of the path so far, as a sum over the channels.
+    /// The radiance of the path so far, as a sum over the channels.
     radiance: f64,
     position: DVec3,
     normal: DVec3,
     throughput: DVec3,
-    /// As of a departure.
+    /// The radiance before a light was sampled at the last surface, as in [`Departure`].
     radiance_before: f64,
 }
 
@@ -202,7 +205,8 @@ impl Trainee {
         self.radiance = 0.0;
     }
 
-    /// Light that was found behind a departure, over the throughput up to there, is an estimate of the radiance that arrives.
+    /// Light that was found behind a departure, over the throughput up to there, is an estimate of the
+    /// radiance that arrives.
     fn end(&mut self) {
         let radiance = self.radiance;
         for departure in self.departures.drain(..) {

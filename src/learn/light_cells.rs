@@ -1,10 +1,13 @@
-//! Learning which lights reach which part of a scene, before the first sample ([`crate::sampling::light_cells`]).
+//! Learning which lights reach which part of a scene, before the first sample
+//! ([`crate::sampling::light_cells`]).
 //!
-//! Training paths, with random numbers of their own, tell where the picture's paths scatter. Space is cut into cells by these points. For each
-//! cell, shadow rays go from some of its points to the lights that could send most there if nothing were in between, and what arrives says how
-//! often each is worth choosing. Other rays say how much comes from all other lights: where that is much, as under a lamp of thousands of triangles,
-//! lists of lights do not help, and `auto` takes the tree. All numbers of things are fixed and results are put together in order, so
-//! what is learned depends on the scene, its settings and the size of its film alone, not on its seed.
+//! Training paths, with random numbers of their own, tell where the picture's paths scatter. Space is cut
+//! into cells by these points. For each cell, shadow rays go from some of its points to the lights that could
+//! send most there if nothing were in between, and what arrives says how often each is worth choosing. Other
+//! rays say how much comes from all other lights: where that is much, as under a lamp of thousands of
+//! triangles, lists of lights do not help, and `auto` takes the tree. All numbers of things are fixed and
+//! results are put together in order, so what is learned depends on the scene, its settings and the size of
+//! its film alone, not on its seed.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -28,7 +31,8 @@ use crate::sampling::light_way::{LightWay, MANY_LIGHTS};
 use crate::sampling::{LightTree, LitPoint, Sampling};
 use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, Shape};
 
-/// Share of the light that may come from lights which are in no list, where nobody says how lights are chosen.
+/// Share of the light that may come from lights which are in no list, where nobody says how lights are
+/// chosen.
 const MOST_UNLISTED: f64 = 0.1;
 /// One path for so many pixels says where light is sampled, within these numbers.
 const PIXELS_OF_PATH: u64 = 8;
@@ -41,8 +45,9 @@ const MOST_WORK: u64 = 8 * work::SECOND;
 const FEWEST_AFFORDABLE: u32 = 8;
 /// Cells between two looks at the work that is done.
 const CELLS_AT_ONCE: usize = 8;
-/// Vertices after which a path is given up.
-const MOST_VERTICES: u32 = 16;
+/// Vertices after which a path is given up: few, since what is far along paths matters little for which
+/// lights reach a place.
+const FIRST_VERTICES: u32 = 16;
 /// Lights that are tried in each cell.
 const TRIED_LIGHTS: usize = 96;
 /// Points of a cell from which lights are tried.
@@ -53,9 +58,9 @@ const TRIED_GROUPS: usize = 16;
 const FIRST_RAYS: u32 = 8;
 const FURTHER_RAYS: u32 = 8;
 const OTHER_RAYS: u32 = 16;
-/// Where few lights are tried, so many times as many.
+/// Most rounds of these rays, where few lights are tried.
 const MOST_ROUNDS: usize = 4;
-/// What a light is taken to send at the mean of squares where it seems to be hidden, as a share of what it would send if nothing were in between.
+/// Mean square that a light which seems hidden is taken to send, as a share of that of a light in full view.
 const DOUBT: f64 = 0.01;
 /// Primitives of a box.
 const BOX_PRIMITIVES: usize = 6;
@@ -65,17 +70,17 @@ pub struct LightsSettled<'a> {
     pub scene: Cow<'a, Scene>,
     /// The scene made ready, where that was needed to find out, with what was learned.
     pub integrator: Option<Integrator>,
-    /// What was found, where lights were tried.
+    /// The reason for the choice, where lights were tried.
     pub because: Option<String>,
     /// Cells of lights were learned, and whether they are better than a choice by power is to be found out.
     pub is_undecided: bool,
 }
 
-/// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and learns what that needs. Of few lights it learns what
-/// a trial run compares with a choice by power.
+/// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and
+/// learns what that needs. Of few lights it learns what a trial run compares with a choice by power.
 ///
 /// # Errors
-/// What the reference cannot render.
+/// [`RenderError`] for a scene that the reference cannot render.
 pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
     let is_open = scene.render.light_choice == LightChoice::Auto;
     let with = |light_choice| Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
@@ -128,7 +133,7 @@ fn without_cells<'a>(mut integrator: Integrator, has_few: bool, with: impl Fn(Li
     }
 }
 
-/// As many lights as there may be.
+/// An upper bound of the number of lights.
 fn most_lights(scene: &Scene) -> usize {
     let emits = scene.materials_that(|material| material.emission.is_some());
     let of_shape = |shape: &Shape| match &shape.geometry {
@@ -140,7 +145,7 @@ fn most_lights(scene: &Scene) -> usize {
     scene.shapes.iter().map(of_shape).sum::<usize>() + scene.lights.len()
 }
 
-/// Whether light is sampled at all. Paths of one edge have no vertex to sample it from.
+/// Says that light is sampled. Paths of one edge have no vertex to sample it from.
 fn is_sampled(scene: &Scene) -> bool {
     scene.render.estimator != Estimator::Bsdf && scene.render.max_depth != 1
 }
@@ -157,15 +162,15 @@ struct Shaded {
     normal: DVec3,
 }
 
-/// What came of learning.
+/// The result of learning.
 struct Learned {
     table: LightCells,
     /// The share of the light from inside the scene that comes from lights in no list, as a mean over cells.
     unlisted: f64,
 }
 
-/// Learns from a scene whose lights are chosen by cells. None where that `has_to_be_whole` and takes too much work; else less is learned then, and cells that
-/// were not tried choose by power.
+/// Learns from a scene whose lights are chosen by cells. None where that `has_to_be_whole` and takes too much
+/// work; else less is learned then, and cells that were not tried choose by power.
 fn learned(integrator: &Integrator, has_to_be_whole: bool) -> Option<Learned> {
     let wanted = path_count(integrator.scene());
     let affordable = (MOST_WORK as f64 / work_of_path::of_path(integrator).max(1.0)) as u32;
@@ -231,11 +236,11 @@ fn shaded_points(integrator: &Integrator, count: u32) -> Vec<Shaded> {
 struct Trial<'a> {
     integrator: &'a Integrator,
     points: Vec<Shaded>,
-    /// Of its random numbers.
+    /// The key of the cell's random numbers.
     key: u32,
 }
 
-/// What is tried on its own.
+/// A light, or a group of lights, that is tried on its own.
 enum Source {
     /// A light inside the scene.
     Inside(usize),
@@ -244,7 +249,8 @@ enum Source {
 }
 
 impl Trial<'_> {
-    /// What lights send to the points, and of that from inside the scene the share that comes from lights which were not tried.
+    /// The light that each light sends to the points, and the share of light from inside the scene that comes
+    /// from lights which were not tried.
     fn reaching(&self) -> (Vec<Reaching>, f64) {
         let lights = self.integrator.lights();
         let Some((choice, tree)) = lights.in_cells() else { return Default::default() };
@@ -291,7 +297,7 @@ impl Trial<'_> {
         tree.strongest((0.5 * (low + high), 0.5 * low.distance(high)), TRIED_LIGHTS, faces)
     }
 
-    /// What a source sends to the points along some rays.
+    /// The light that a source sends to the points along some rays.
     fn sent(&self, source: &Source, rays: Range<u32>) -> Sent {
         let first = match source {
             Source::Inside(light) => *light,
@@ -317,8 +323,9 @@ impl Trial<'_> {
         rays.map(along).fold(Sent::default(), |sum, sent| sum + sent)
     }
 
-    /// The light of a group that random bits choose by power, with its probability among all lights, and that of the group. While nothing is learned, lights that
-    /// draw the same directions have these probabilities as well.
+    /// The light of a group that random bits choose by power, with its probability among all lights, and that
+    /// of the group. While nothing is learned, lights that draw the same directions have these probabilities
+    /// as well.
     fn out_of(&self, group: Range<usize>, bits: u32) -> ((usize, f64), f64) {
         let by_power = self.integrator.lights().in_cells().map_or(&[][..], |(choice, _)| choice.by_power());
         let whole: f64 = group.clone().map(|light| by_power[light]).sum();
@@ -332,7 +339,8 @@ impl Trial<'_> {
     }
 }
 
-/// Sums over rays to a light: what arrived along them, its square, and the square of what would have if nothing were in between.
+/// Sums over rays to a light: what arrived along them, its square, and the square of what would have if
+/// nothing were in between.
 #[derive(Clone, Copy, Default)]
 struct Sent {
     arrived: f64,
@@ -355,7 +363,7 @@ impl std::ops::Add for Sent {
 }
 
 impl Sent {
-    /// What the light is worth choosing for: the root of the mean square, with some doubt where nothing arrived.
+    /// The weight of the light in lists: the root of the mean square, with some doubt where nothing arrived.
     fn worth(self) -> f64 {
         let square = if self.arrived > 0.0 { self.square } else { DOUBT * self.free_square };
         (square / self.rays).sqrt()
@@ -386,7 +394,7 @@ impl PathVisitor for Walker {
 
     fn scattered(&mut self, sample: &BsdfSample) {
         if let (Density::SolidAngle(_), false, Some(mut at)) = (sample.density, sample.is_null, self.at) {
-            // What a path goes through is lit from behind.
+            // A surface that the path goes through is lit from behind.
             if sample.wi.dot(at.normal) < 0.0 {
                 at.normal = DVec3::ZERO;
             }
@@ -395,6 +403,6 @@ impl PathVisitor for Walker {
     }
 
     fn gives_up(&mut self, vertices: u32) -> bool {
-        vertices >= MOST_VERTICES
+        vertices >= FIRST_VERTICES
     }
 }

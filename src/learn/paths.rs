@@ -6,7 +6,11 @@ use crate::reference::integrator::Integrator;
 use crate::reference::trace::PathVisitor;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 
-/// A pixel for each path: spread evenly over the film, whatever their number (Roberts's R2 sequence, in integers).
+/// Vertices after which a path is given up.
+pub const MOST_VERTICES: u32 = 64;
+
+/// A pixel for each path: spread evenly over the film, whatever their number (Roberts's R2 sequence, in
+/// integers).
 pub fn pixel_of(path: u32, [width, height]: [u32; 2]) -> [u32; 2] {
     let scaled = |number: u32, size: u32| ((u64::from(number) * u64::from(size)) >> 32) as u32;
     [scaled(path.wrapping_mul(3_242_174_889), width), scaled(path.wrapping_mul(2_447_445_414), height)]

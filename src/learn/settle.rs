@@ -51,8 +51,9 @@ pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
 }
 
 impl Settled<'_> {
-    /// Gives up cells of lights, for a device on which they have no room, where nobody asked for them: `local_lights` inside
-    /// the scene are then chosen by a tree, or by power where they are few. Returns whether there were cells to give up.
+    /// Gives up cells of lights, for a device on which they have no room, where nobody asked for them:
+    /// `local_lights` inside the scene are then chosen by a tree, or by power where they are few. Returns
+    /// whether there were cells to give up.
     pub fn gives_up_cells(&mut self, local_lights: usize) -> bool {
         if !std::mem::take(&mut self.chose_cells) {
             return false;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::paths::{follow, pixel_of};
+use super::paths::{MOST_VERTICES, follow, pixel_of};
 use crate::reference::integrator::Integrator;
 use crate::reference::trace::PathVisitor;
 use crate::reference::work;
@@ -13,16 +13,17 @@ use crate::scene::{PixelSampler, SamplerKind};
 /// The work of each vertex of a path that meets nothing that is counted.
 const VERTEX: u64 = 64;
 
-/// Paths by which work is judged, in batches: a batch is traced where those before it took less than [`MOST_JUDGING`].
+/// Paths by which work is judged, in batches: a batch is traced where those before it took less than
+/// [`MOST_JUDGING`].
 const BATCHES: [u32; 4] = [2, 6, 24, 96];
 /// Work after which judging ends.
 const MOST_JUDGING: u64 = work::SECOND;
-/// Work after which a path is given up. It then took more than anything that is traced thousands of times may take.
+/// Work after which a path is given up. It then took more than anything that is traced thousands of times may
+/// take.
 const MOST_OF_PATH: u64 = work::SECOND / 4;
-/// Vertices after which a path is given up, as trial runs do.
-const MOST_VERTICES: u32 = 64;
 
-/// The work of a path of this scene, light samples included, by the mean of a few that are spread over the film: the same ones, whatever the seed.
+/// The work of a path of this scene, light samples included, by the mean of a few that are spread over the
+/// film: the same ones, whatever the seed.
 pub fn of_path(integrator: &Integrator) -> f64 {
     let scene = integrator.scene();
     let sampling = Sampling {
@@ -70,8 +71,8 @@ pub struct TimeOfPath {
 }
 
 impl Integrator {
-    /// The time that a path takes, with all cores at work, by `paths` of them that are spread over the film, or by those that end within `limit` seconds. It
-    /// decides nothing about the picture.
+    /// The time that a path takes, with all cores at work, by `paths` of them that are spread over the film,
+    /// or by those that end within `limit` seconds. It decides nothing about the picture.
     pub fn time_of_path(&self, paths: u32, limit: f64) -> TimeOfPath {
         let start = std::time::Instant::now();
         let sampling = Sampling::from(&self.scene().render);

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::Mesh;
+use crate::scene::{self, Mesh};
 
 /// Coordinates of models are within this.
-pub const FARTHEST: f32 = 1e18;
+pub const FARTHEST: f32 = scene::FARTHEST as f32;
 
 /// How a model is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,6 @@
 
 use super::choices::{FilmStorage, GeometryPlacement, StageMode};
 use super::chunks::Chunks;
-use super::decision::Decision;
 use super::error::PlanError;
 use super::limits::{DeviceLimits, RayQueryDefault};
 use super::memory::{PRIMITIVES, TABLES};
@@ -10,6 +9,7 @@ use super::model::Plan;
 use super::options::{PlanOptions, TraversalChoice};
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
+use crate::renderer::Decision;
 use crate::sampling::light_cells::table as light_cells;
 use crate::sampling::light_tree;
 use crate::sampling::light_way::MANY_LIGHTS;

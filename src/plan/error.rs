@@ -1,4 +1,6 @@
-//! Why there is no plan.
+//! Reasons why there is no plan.
+
+use crate::renderer::RenderError;
 
 /// A scene that cannot be planned for a device.
 #[derive(Debug, thiserror::Error)]
@@ -9,4 +11,13 @@ pub enum PlanError {
     /// What is asked for contradicts itself: a fault of this program.
     #[error("{0}")]
     Internal(String),
+}
+
+impl From<PlanError> for RenderError {
+    fn from(error: PlanError) -> Self {
+        match error {
+            PlanError::DoesNotFit(message) => Self::DoesNotFit(message),
+            PlanError::Internal(message) => Self::Internal(message),
+        }
+    }
 }

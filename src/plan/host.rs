@@ -7,6 +7,7 @@ use std::collections::HashSet;
 use std::ptr;
 
 use super::memory::Memory;
+use crate::film::MOST_FILM_PIXELS;
 use crate::scene::{ImageData, Light, Scene, SceneSummary, TextureKind};
 
 /// By how much an estimate may be off, either way.
@@ -34,8 +35,6 @@ const STREAM_BYTES: u64 = 128;
 const STREAM_PIXELS: u64 = 1 << 18;
 /// Of each pixel, of a state that is being written.
 const STATE_BYTES: u64 = 36;
-/// Pixels of a film at a time, at most; of larger pictures, bands are finished one after the other.
-const FILM_PIXELS: u64 = 1 << 25;
 
 /// What decides it beside the scene.
 #[derive(Debug, Clone, Copy, Default)]
@@ -65,7 +64,7 @@ pub fn host_memory(scene: &Scene, needs: &HostNeeds) -> Memory {
     let images =
         of_textures.chain(scene.lights.iter().filter_map(Light::image)).filter(|image| seen.insert(ptr::from_ref(*image)));
     let pictures: usize = images.map(|image: &ImageData| image.texels.as_bytes().len()).sum();
-    let film = pixels.min(FILM_PIXELS);
+    let film = pixels.min(MOST_FILM_PIXELS);
     let of = |is_so: bool, bytes: u64| if is_so { bytes } else { 0 };
     let steps = of(adaptive, ADAPTIVE_BYTES * pixels) + of(target_error, TARGET_BYTES * pixels);
     let streams = of(target_error, STREAM_BYTES * pixels.min(STREAM_PIXELS));

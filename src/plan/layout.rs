@@ -3,7 +3,7 @@
 
 use super::bindings::Binding;
 use super::parameters::{PassParameters, VertexParameters};
-use super::{counters, path_state, trace_record};
+use super::{counters, estimator, path_state, trace_record};
 use crate::packed::{
     NONE, View, blend_weight, bvh4, guide, instance, light, light_cells, material, motion, primitive, shape, texture, view,
 };
@@ -18,6 +18,7 @@ pub fn constants() -> Constants {
         vec![("NONE", Constant::U32(NONE))],
         Binding::constants(),
         counters::constants(),
+        estimator::constants(),
         path_state::constants(),
         trace_record::constants(),
         shape::constants(),

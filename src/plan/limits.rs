@@ -3,6 +3,7 @@
 use super::choices::{FILM_BYTES, FilmStorage};
 use super::error::PlanError;
 use super::path_state::PathMemory;
+use crate::film::MOST_FILM_PIXELS;
 
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
 const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
@@ -13,8 +14,6 @@ const HARDWARE_PATHS: u64 = 1 << 21;
 /// Where a device has no memory for more.
 const FEWEST_PATHS: u32 = 1 << 18;
 
-/// Pixels of a film that samples go over as a whole: those of an 8K picture, which take 1 GiB. Larger pictures are rendered in bands.
-const MOST_FILM_PIXELS: u64 = 1 << 25;
 /// Pixels of a band where the device has no memory for more, which take 32 MiB.
 const FEWEST_FILM_PIXELS: u64 = 1 << 20;
 /// Where pixels are listed, a path's state has 24 bits for its pixel.
@@ -96,39 +95,15 @@ impl Default for DeviceLimits {
 }
 
 impl DeviceLimits {
-    pub(super) fn of(adapter: &wgpu::Adapter) -> Self {
-        let limits = adapter.limits();
-        let features = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float);
-        let info = adapter.get_info();
-        let software = info.device_type == wgpu::DeviceType::Cpu;
-        let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
-        let one_size = subgroups && info.subgroup_min_size == info.subgroup_max_size;
-        let specific = adapter.features().contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
-        let max_array = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-        let max_workgroups = limits.max_compute_workgroups_per_dimension;
-        let wanted_paths: u64 = if software { SOFTWARE_PATHS } else { HARDWARE_PATHS };
-        let most_paths = (max_array / PathMemory::MOST.bytes()).min(u64::from(max_workgroups) * 64);
-        Self {
-            max_storage_binding: limits.max_storage_buffer_binding_size,
-            max_uniform_binding: limits.max_uniform_buffer_binding_size.min(64 << 10) as u32,
-            max_buffer: limits.max_buffer_size,
-            max_array,
-            path_capacity: wanted_paths.min(most_paths) as u32,
-            film_pixels: MOST_FILM_PIXELS,
-            max_storage_buffers: limits.max_storage_buffers_per_shader_stage,
-            max_texture_side: limits.max_texture_dimension_2d,
-            max_workgroups,
-            read_write_rgba32float: specific && features.flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE),
-            software,
-            threads: if software { std::thread::available_parallelism().map_or(1, |count| count.get() as u32) } else { 1 },
-            subgroups,
-            subgroup_size: one_size.then_some(info.subgroup_min_size),
-            ray_queries: Some(RayQueryLimits { max_primitives: limits.max_blas_primitive_count })
-                .filter(|_| adapter.features().contains(wgpu::Features::EXPERIMENTAL_RAY_QUERY)),
-            ray_query_default: RayQueryDefault::No,
-        }
+    /// Paths in flight on a device that binds arrays of `max_array` bytes and dispatches so many workgroups.
+    pub fn most_paths(software: bool, max_array: u64, max_workgroups: u32) -> u32 {
+        let wanted = if software { SOFTWARE_PATHS } else { HARDWARE_PATHS };
+        let possible = (max_array / PathMemory::MOST.bytes()).min(u64::from(max_workgroups) * 64);
+        wanted.min(possible) as u32
     }
 
+    /// The limits of ray queries.
+    ///
     /// # Errors
     /// [`PlanError::DoesNotFit`] where the device, so called, has no ray queries.
     pub fn check_ray_queries(&self, device: &str) -> Result<RayQueryLimits, PlanError> {

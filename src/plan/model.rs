@@ -4,10 +4,10 @@ use std::fmt;
 
 use super::choices::{FilmStorage, GeometryPlacement, StageMode};
 use super::chunks::Chunks;
-use super::decision::Decision;
 use super::memory::{Memory, SHADOW_RAY_BYTES};
 use super::path_state::PathMemory;
 use crate::packed::hierarchy::Traversal;
+use crate::renderer::Decision;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::shader::Switches;
 use crate::shader::switches::SWITCHES;

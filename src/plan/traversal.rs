@@ -1,29 +1,13 @@
-//! Which way rays go through a scene: what is asked for, what the device has, and what was verified.
+//! The way rays find what they meet: the one that is asked for, that the device has, and that was verified.
 
-use super::error::PlanError;
 use super::limits::{DeviceLimits, RayQueryDefault};
 use super::options::{PlanOptions, TraversalChoice};
-use super::verified_drivers::driver_identity;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::Scene;
 
 impl DeviceLimits {
-    /// Of an adapter that is opened for plans with these options, which then has ray queries only where they may be used.
-    ///
-    /// # Errors
-    /// [`PlanError::DoesNotFit`] where it lacks those that are asked for.
-    pub fn for_plans(adapter: &wgpu::Adapter, options: &PlanOptions) -> Result<Self, PlanError> {
-        let limits = Self::of(adapter);
-        let info = adapter.get_info();
-        if options.asks_for_ray_queries() {
-            limits.check_ray_queries(&info.name)?;
-        }
-        let is_verified = options.verified.contains(&driver_identity(&info));
-        Ok(limits.with_ray_queries(options.traversal, is_verified))
-    }
-
-    /// With ray queries only where they may be used. What is not enabled is not there.
-    fn with_ray_queries(self, traversal: TraversalChoice, is_verified: bool) -> Self {
+    /// The limits with ray queries only where they may be used. What is not enabled is not there.
+    pub fn with_ray_queries(self, traversal: TraversalChoice, is_verified: bool) -> Self {
         let ray_query_default = match (traversal, self.ray_queries) {
             (TraversalChoice::Auto, Some(_)) if self.software => RayQueryDefault::No,
             (TraversalChoice::Auto, Some(_)) if is_verified => RayQueryDefault::Verified,

@@ -8,24 +8,18 @@ use std::sync::Arc;
 pub struct VerifiedDrivers(Arc<BTreeSet<String>>);
 
 impl VerifiedDrivers {
-    /// Named as [`driver_identity`] does.
+    /// Devices by the names that [`crate::gpu::driver_identity`] gives.
     pub fn new(identities: impl IntoIterator<Item = String>) -> Self {
         Self(Arc::new(identities.into_iter().collect()))
     }
 
-    /// Whether the device was verified with its driver.
+    /// Says that the device was verified with its driver.
     pub fn contains(&self, identity: &str) -> bool {
         self.0.contains(identity)
     }
 
-    /// Whether there is none.
+    /// Says that no driver was verified.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
-}
-
-/// A device with the interface and the version of the driver, as one text.
-pub fn driver_identity(info: &wgpu::AdapterInfo) -> String {
-    let driver = [&*info.driver, &*info.driver_info].join(" ");
-    format!("{}, {:?}, {}", info.name, info.backend, driver.trim())
 }

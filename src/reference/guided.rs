@@ -7,14 +7,12 @@
 
 use glam::DVec3;
 
-use super::bsdf::{Bsdf, BsdfSample, Density, Evaluation};
+use super::bsdf::{Bsdf, BsdfSample, Density, Evaluation, View};
 use super::intersect::Surface;
 use crate::sampling::Guide;
 use crate::sampling::guide::GuideCell;
 use crate::sampling::guide::table::GUIDED_SHARE;
-
-/// The largest number that is left where one chose the BSDF: random numbers are multiples of 2⁻²⁴ below 1.
-const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
+use crate::sampling::sampler::LARGEST_NUMBER;
 
 /// A surface's BSDF, and the guide where it takes part.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +27,11 @@ impl<'a> GuidedBsdf<'a> {
         let share = guide.map_or(0.0, |_| f64::from(GUIDED_SHARE) * bsdf.guided_probability());
         let cell = guide.filter(|_| share > 0.0).and_then(|guide| guide.cell(surface.point.position, bsdf.view.normal()));
         Self { bsdf, guide: cell.map(|cell| (cell, share)) }
+    }
+
+    /// The surface as the path sees it.
+    pub fn view(&self) -> &'a View {
+        &self.bsdf.view
     }
 
     /// As [`GuideCell::sent_on`]; none where there is no guide.

@@ -9,7 +9,7 @@ pub mod bsdf;
 pub mod camera;
 pub mod coverage;
 pub mod emission;
-mod guided;
+pub mod guided;
 pub mod integrator;
 pub mod intersect;
 pub mod layer;

@@ -8,11 +8,7 @@
 use glam::DVec3;
 
 use crate::sampling::guide::table::{LEAST_SURVIVAL, SURVIVAL_FACTOR};
-
-/// Edges from which on roulette always has a chance to end the path.
-const CERTAIN_ROULETTE_DEPTH: u32 = 64;
-/// Largest probability of surviving from there on.
-const LARGEST_SURVIVAL: f64 = 0.999;
+use crate::sampling::roulette::{CERTAIN_ROULETTE_DEPTH, LARGEST_SURVIVAL};
 
 fn largest_survival(depth: u32) -> f64 {
     if depth < CERTAIN_ROULETTE_DEPTH { 1.0 } else { LARGEST_SURVIVAL }

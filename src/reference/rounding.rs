@@ -8,16 +8,16 @@
 use glam::DVec3;
 
 use super::bsdf::{BsdfSample, Density};
-use super::intersect::{Ray, Surface, SurfacePoint};
+use super::guided::GuidedBsdf;
+use super::intersect::{Hit, PathTime, Ray, Surface, SurfacePoint, World};
+use super::lights::{LightSample, Lights};
 use super::trace::{LightConnection, PathVisitor};
 use crate::math::POINT_ERROR;
 use crate::sampling::hash::mix;
+use crate::sampling::sampler::LARGEST_NUMBER;
 
 /// Relative size of one rounding to f32.
 const UNIT: f64 = 0.5 * f32::EPSILON as f64;
-
-/// Random numbers are below 1: the largest that samplers give.
-const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
 
 /// Follows a path with intermediate results that are off by rounding errors, and notes which decisions were taken.
 #[derive(Debug, Clone)]
@@ -85,8 +85,6 @@ impl PathVisitor for Rounding {
         self.decided(7);
     }
 
-    const ROUNDS: bool = true;
-
     fn round_ray(&mut self, ray: &mut Ray, left: Option<&SurfacePoint>) {
         self.round_direction(&mut ray.direction);
         let magnitude = left.map_or_else(|| ray.origin.abs().max_element(), SurfacePoint::magnitude);
@@ -103,9 +101,17 @@ impl PathVisitor for Rounding {
         ray.origin += error;
     }
 
-    fn round_first(&mut self, magnitude: f64) -> (f64, u32) {
+    fn first_hit(&mut self, world: &World, ray: &Ray, time: &PathTime) -> Option<Hit> {
+        let first = world.closest(*ray, time)?;
+        let magnitude = ray.origin.abs().max(ray.at(first.distance).abs()).max_element();
         self.state = self.state.wrapping_add(0x9e37_79b9);
-        (self.size * magnitude, mix(self.state))
+        let (farther, number) = (self.size * magnitude, mix(self.state));
+        if farther == 0.0 {
+            return Some(first);
+        }
+        let mut met = world.hits_before(*ray, first.distance + farther, time);
+        // At an edge, the limit may be what keeps the first from being met again.
+        (!met.is_empty()).then(|| met.swap_remove(number as usize % met.len())).or(Some(first))
     }
 
     fn round_point(&mut self, point: &mut DVec3, magnitude: f64) {
@@ -127,17 +133,36 @@ impl PathVisitor for Rounding {
         *direction = (*direction + self.draw_vector() * self.size).normalize();
     }
 
-    fn round_length(&mut self, length: &mut f64) {
-        // Kernels end shadow rays early, by an error of their own.
-        *length *= 1.0 - (self.draw() + 1.0) * self.size;
-    }
-
     fn round_number(&mut self, number: f64) -> f64 {
         (number + self.size * self.draw()).clamp(0.0, LARGEST_NUMBER)
     }
 
-    fn round_bits(&mut self, bits: u32, magnified: f64) -> u32 {
+    fn round_light_numbers(&mut self, bits: [u32; 2], magnified: impl FnOnce() -> f64) -> [u32; 2] {
+        let magnified = magnified();
         // A cast to an integer ends at the smallest and the largest.
-        (f64::from(bits) + magnified * self.size * self.draw() * 4_294_967_296.0) as u32
+        bits.map(|bits| (f64::from(bits) + magnified * self.size * self.draw() * 4_294_967_296.0) as u32)
+    }
+
+    fn round_light(&mut self, light: &mut LightSample, lights: &Lights) {
+        self.round_direction(&mut light.wi);
+        // Kernels end shadow rays early, by an error of their own.
+        light.distance *= 1.0 - (self.draw() + 1.0) * self.size;
+        // What comes from outside the scene depends on the direction alone.
+        if light.distance.is_infinite() && !light.delta {
+            light.radiance = lights.outside().radiance(light.wi);
+        }
+    }
+
+    fn round_sample(&mut self, sample: &mut BsdfSample, bsdf: &GuidedBsdf) {
+        // The density of a narrow lobe changes much faster than the direction.
+        let exact = bsdf.evaluate(sample.wi).pdf;
+        self.round_direction(&mut sample.wi);
+        let rounded = bsdf.evaluate(sample.wi).pdf;
+        if let Density::SolidAngle(pdf) = &mut sample.density
+            && exact > 0.0
+            && rounded > 0.0
+        {
+            *pdf *= rounded / exact;
+        }
     }
 }

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::bsdf::{BsdfSample, View};
-use super::intersect::{Ray, Surface, SurfacePoint};
-use super::lights::LightSample;
+use super::guided::GuidedBsdf;
+use super::intersect::{Hit, PathTime, Ray, Surface, SurfacePoint, World};
+use super::lights::{LightSample, Lights};
 use crate::scene::MaterialId;
 
 /// Next event estimation at one surface.
@@ -20,19 +21,22 @@ pub struct LightConnection {
     pub contribution: DVec3,
 }
 
-/// Is told what happens along a path, in this order. Those that do not care leave the methods as they are, at no cost.
+/// Is told what happens along a path, in this order. Those that do not care leave the methods as they are, at
+/// no cost.
 pub trait PathVisitor {
     /// Whether light is sampled for the path.
     const LIGHTS: bool = true;
     /// A path or shadow ray is traced.
     fn ray(&mut self, _ray: &Ray) {}
-    /// The path met a surface; `throughput` is that of the path up to it, `depth` is that of the ray that met it.
+    /// The path met a surface; `throughput` is that of the path up to it, `depth` is that of the ray that met
+    /// it.
     fn surface(&mut self, _depth: u32, _surface: &Surface, _wo: DVec3, _throughput: DVec3) {}
     /// The surface emits towards the path.
     fn emission(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
     /// Whether the method below is called.
     const COMPARES: bool = false;
-    /// The direction of the light sample or of the path that is told of next would have so many times its density without a guide.
+    /// The direction of the light sample or of the path that is told of next would have so many times its
+    /// density without a guide.
     fn unguided(&mut self, _times: f64) {}
     /// The surface scatters, seen like this.
     fn view(&mut self, _view: &View) {}
@@ -47,31 +51,33 @@ pub trait PathVisitor {
     /// The path left the scene.
     fn escaped(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
 
-    /// Whether the methods below change what they are given.
-    const ROUNDS: bool = false;
+    // The methods below may change what they are given, by as much as rounding does.
+
+    /// The first surface that a path's ray meets; where others are as close but for rounding, one of them.
+    fn first_hit(&mut self, world: &World, ray: &Ray, time: &PathTime) -> Option<Hit> {
+        world.closest(*ray, time)
+    }
     /// A ray about to be traced, and the point of a surface that it leaves; none for the camera's.
     fn round_ray(&mut self, _ray: &mut Ray, _left: Option<&SurfacePoint>) {}
-    /// By how much more than the first surface another may be away and be met in its place, where coordinates have this magnitude; and a number
-    /// that chooses among those.
-    fn round_first(&mut self, _magnitude: f64) -> (f64, u32) {
-        (0.0, 0)
-    }
-    /// A point of a surface, of numbers of this magnitude, that light is sampled from.
-    fn round_point(&mut self, _point: &mut DVec3, _magnitude: f64) {}
     /// A surface that was met.
     fn round_surface(&mut self, _surface: &mut Surface) {}
+    /// A point of a surface, of numbers of this magnitude, that light is sampled from.
+    fn round_point(&mut self, _point: &mut DVec3, _magnitude: f64) {}
     /// A direction of unit length.
     fn round_direction(&mut self, _direction: &mut DVec3) {}
-    /// A length.
-    fn round_length(&mut self, _length: &mut f64) {}
     /// A random number that a choice is made by: where it is close to the border, rounding decides.
     fn round_number(&mut self, number: f64) -> f64 {
         number
     }
-    /// The bits of a random number of a light sample, whose rounding errors are magnified so many times.
-    fn round_bits(&mut self, bits: u32, _magnified: f64) -> u32 {
+    /// The bits of the random numbers by which a direction to a light is drawn; `magnified` says how many
+    /// times their rounding errors are magnified.
+    fn round_light_numbers(&mut self, bits: [u32; 2], _magnified: impl FnOnce() -> f64) -> [u32; 2] {
         bits
     }
+    /// A sample of one of the lights.
+    fn round_light(&mut self, _light: &mut LightSample, _lights: &Lights) {}
+    /// A sampled direction, with the density that belongs to it.
+    fn round_sample(&mut self, _sample: &mut BsdfSample, _bsdf: &GuidedBsdf) {}
 }
 
 /// Counts rays.

@@ -4,9 +4,7 @@ use glam::DVec3;
 
 use super::intersect::Surface;
 use crate::scene::Scene;
-
-/// Farther nothing goes: where light leaves the scene its distance is infinite.
-const FARTHEST: f64 = 1e20;
+use crate::scene::material::FARTHEST;
 
 /// What takes light behind surfaces.
 #[derive(Debug, Clone)]

@@ -7,7 +7,6 @@
 //! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise. [`error_estimate`]: how far a picture is from the truth.
 
 pub mod checkpoint;
-pub mod choice;
 pub mod cryptomatte;
 pub mod error_estimate;
 mod free_memory;

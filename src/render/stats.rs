@@ -5,8 +5,7 @@ use serde::Serialize;
 use super::image::Image;
 use super::options::RenderOptions;
 use super::progressive::Outcome;
-use crate::packed::hierarchy::Traversal;
-use crate::plan::Decision;
+use crate::renderer::Decision;
 use crate::scene::{RenderSettings, Scene};
 
 /// The keys. They stay as they are; new ones may be added.
@@ -97,7 +96,7 @@ impl Stats {
             frame: None,
             device: report.device.clone(),
             notice: None,
-            hierarchy: report.traversal.map(Traversal::key),
+            hierarchy: report.hierarchy,
             decisions: report.decisions.clone(),
             compiled_in: report.compiled_in.clone(),
             width,

@@ -4,11 +4,11 @@ use std::io;
 use std::time::{Duration, Instant};
 
 use super::checkpoint::{Checkpoint, Identity};
-use super::choice::{Choice, ChosenRenderer};
 use super::free_memory::FreeMemory;
 use super::image::Image;
 use super::options::RenderOptions;
 use super::progressive::{self, Goal, Outcome};
+use crate::device::{ChosenDevice, ChosenRenderer};
 use crate::error::Error;
 use crate::film::Band;
 use crate::output::Provenance;
@@ -48,14 +48,14 @@ impl Renderer {
     /// Options that contradict each other, no such device, or a scene that does not fit it.
     pub fn new(scene: &Scene, options: &RenderOptions) -> Result<Self, Error> {
         let scene = options.applied(scene)?;
-        let choice = Choice::begin(&options.device, &options.plan_options());
+        let choice = ChosenDevice::begin(&options.device, &options.plan_options());
         Ok(Self::on(choice, &scene, options)?)
     }
 
     /// Begins to open the device, so that it opens while the scene is read.
     #[doc(hidden)]
-    pub fn begin(options: &RenderOptions) -> Choice {
-        Choice::begin(&options.device, &options.plan_options())
+    pub fn begin(options: &RenderOptions) -> ChosenDevice {
+        ChosenDevice::begin(&options.device, &options.plan_options())
     }
 
     /// As [`Renderer::new`], with a choice that began with these options and a scene to which they are applied.
@@ -63,7 +63,7 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::new`].
     #[doc(hidden)]
-    pub fn on(choice: Choice, scene: &Scene, options: &RenderOptions) -> Result<Self, RenderError> {
+    pub fn on(choice: ChosenDevice, scene: &Scene, options: &RenderOptions) -> Result<Self, RenderError> {
         let ChosenRenderer { renderer, notice } = choice.renderer(scene, &options.plan_options())?;
         let bulk = BulkDigest::of(scene);
         let provenance = Self::provenance_with(&bulk, scene, options, renderer.device());
@@ -83,7 +83,7 @@ impl Renderer {
         let same_meshes = scene.has_meshes_of(before);
         let bulk = if same_meshes { bulk } else { BulkDigest::of(scene) };
         let change = if same_meshes && scene.shapes_stand_as_in(before) { Change::Camera } else { Change::Shapes };
-        let renderer = renderer.with_scene(scene, &options.plan_options(), change)?;
+        let renderer = renderer.with_scene(scene, change)?;
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
         Ok(Self { renderer, notice, options, film, size, provenance, bulk, memory })
     }
@@ -105,7 +105,7 @@ impl Renderer {
             && scene.camera.aperture == before.camera.aperture
             && std::mem::discriminant(&scene.camera.projection) == std::mem::discriminant(&before.camera.projection);
         let change = if is_camera { Change::Camera } else { Change::Shapes };
-        let renderer = renderer.with_scene(scene, &options.plan_options(), change)?;
+        let renderer = renderer.with_scene(scene, change)?;
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
         let film = scene.film.size;
         let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);

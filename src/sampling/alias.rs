@@ -32,7 +32,8 @@ impl AliasTable {
                 small.push(rich);
             }
         }
-        // What is left over differs from 1 by rounding alone, and is its own alias. An entry of no weight cannot be left here
+        // An entry that is left over differs from 1 by rounding alone, and is its own alias. An entry of no
+        // weight cannot be left here
         // unless all are, because some entry then has at least the mean.
         table
     }

@@ -20,7 +20,7 @@ const OUTLIERS: f64 = 0.002;
 /// Boxes of one facing, a range along each axis.
 pub type Region = [[u32; 2]; 3];
 
-/// Where the boxes are.
+/// The place and the size of the boxes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CellGrid {
     origin: Vec3,
@@ -99,7 +99,7 @@ impl CellGrid {
         (0..3).all(inside).then(|| place.to_array().map(|place| place as u32))
     }
 
-    /// Where the box of a point on a surface that faces so stands in the index.
+    /// Position in the index of the box of a point on a surface that faces so.
     pub fn index_of(&self, facing: u32, position: DVec3) -> Option<usize> {
         let [x, y, z] = self.place(position)?;
         Some(self.row(facing, y, z) + x as usize)

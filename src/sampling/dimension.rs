@@ -2,7 +2,7 @@
 //!
 //! Dimensions come in blocks of four so that the device loads a block at once: blocks 0 and 1 are the camera's, every vertex has two.
 
-/// What a random number of the camera is used for.
+/// Uses of the camera's random numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum CameraDimension {
@@ -14,7 +14,7 @@ pub enum CameraDimension {
     Time = 4,
 }
 
-/// What a random number at a surface is used for.
+/// Uses of random numbers at a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum VertexDimension {
@@ -63,7 +63,7 @@ impl Dimension {
         Self(CAMERA_DIMENSIONS + vertex * VERTEX_DIMENSIONS + dimension as u32)
     }
 
-    /// Whether this is a coordinate of the position inside the pixel.
+    /// Says that this is a coordinate of the position inside the pixel.
     pub const fn is_pixel(self) -> bool {
         self.0 <= CameraDimension::PixelY as u32
     }

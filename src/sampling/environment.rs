@@ -1,4 +1,4 @@
-//! Where an environment map is bright: what directions are drawn by.
+//! The distribution by which directions to an environment map are drawn: its brightness.
 
 use std::f64::consts::PI;
 
@@ -61,7 +61,8 @@ fn mean_over_middle([before, here, after]: [f64; 3]) -> f64 {
     (before + 6.0 * here + after) / 8.0
 }
 
-/// The same over the y-th of as many even cells as there are rows, of which the first and the last lie on the poles.
+/// The mean over the y-th of as many even cells as there are rows, of which the first and the last lie on the
+/// poles.
 fn mean_over_cell(y: usize, height: usize, [before, here, after]: [f64; 3]) -> f64 {
     if height == 1 {
         return here; // the same from pole to pole

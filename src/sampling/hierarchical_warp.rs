@@ -77,7 +77,7 @@ impl HierarchicalWarp {
         levels(self.width, self.height)
     }
 
-    /// The same of any grid.
+    /// Levels over any grid.
     pub fn levels_over(width: u32, height: u32) -> u32 {
         levels(width, height)
     }

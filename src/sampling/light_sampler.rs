@@ -11,7 +11,7 @@ use crate::scene::LightStrength;
 /// Share of the choices in which all groups are alike (measured in `docs/strategies.md`).
 const EVEN_SHARE: f64 = 0.3;
 
-/// What lights are parts of. A mesh that emits is one group, however many triangles it has.
+/// Groups of lights. A mesh that emits is one group, however many triangles it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LightGroup {
     Surface {

@@ -13,14 +13,15 @@ pub const MANY_LIGHTS: usize = 24;
 pub enum LightWay {
     /// By [`super::light_sampler`].
     Power,
-    /// Those inside the scene by [`super::light_tree`].
+    /// By [`super::light_tree`] among lights inside the scene.
     Tree,
     /// By [`super::light_cells`].
     Cells,
 }
 
 impl LightWay {
-    /// Of these lights. `auto` is the tree of many lights and power of few where nothing was [tried](crate::learn::light_cells::settle).
+    /// The way for these lights. `auto` is the tree for many lights and power for few, where nothing was
+    /// [learned](crate::learn::settle).
     pub fn of(choice: LightChoice, lights: &LightSampler) -> Self {
         let local = lights.local_count();
         let can_be = |fewest: usize, way| if (fewest..=MOST_LIGHTS).contains(&local) { way } else { Self::Power };

@@ -2,7 +2,8 @@
 
 use super::hash::{dimension_bits, mix};
 
-/// Where a permutation of 0..`length` takes `value`: cycle walking on a keyed bijection of the next power of two (Kensler 2013).
+/// The place to which a permutation of 0..`length` takes `value`: cycle walking on a keyed bijection of the
+/// next power of two (Kensler 2013).
 /// `value` is below `length`, and `length` at most 2³¹.
 pub fn permuted(value: u32, length: u32, key: u32) -> u32 {
     let mask = length.next_power_of_two() - 1;

@@ -67,6 +67,9 @@ impl<'a> PathSampler<'a> {
     }
 }
 
+/// The largest number that samplers give: all are multiples of 2⁻²⁴ below 1.
+pub const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
+
 /// The upper 24 of 32 bits as a number of [0, 1).
 #[inline]
 pub fn uniform(bits: u32) -> f64 {

@@ -1,4 +1,4 @@
-//! What all pixels share of a sampler's numbers: worked out once per sample on the host.
+//! The part of a sampler's numbers that all pixels share: worked out once per sample on the host.
 
 use super::dimension::{Dimension, SEQUENCE_DIMENSIONS, VertexDimension};
 use super::halton::radical_inverse_bits;
@@ -68,7 +68,7 @@ impl Sampling {
         }
     }
 
-    /// Whether any number comes from a sequence.
+    /// Says that some number comes from a sequence.
     pub fn uses_sequence(&self) -> bool {
         let pixel = matches!(self.pixel, PixelSampler::Other(kind) if kind.decorrelation() != Decorrelation::Hashed);
         pixel || self.path.decorrelation() != Decorrelation::Hashed
@@ -82,7 +82,8 @@ impl Sampling {
         self.bits_at(dimension, sample, self.samples)
     }
 
-    /// Those of light sample `number` at a surface that takes several. All light samples of a pixel at that vertex are points of one sequence.
+    /// The bits of light sample `number` at a surface that takes several. All light samples of a pixel at
+    /// that vertex are points of one sequence.
     fn light_bits(&self, dimension: Dimension, sample: u32, number: u32) -> u32 {
         let count = self.light_samples;
         let index = sample.wrapping_mul(count).wrapping_add(number);

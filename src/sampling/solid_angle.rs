@@ -17,7 +17,7 @@ pub const LEAST_TRIANGLE_SHARE: f64 = 0.003;
 /// Largest cosine between edges that are perpendicular but for rounding.
 const PERPENDICULAR: f64 = 1e-6;
 
-/// Whether a parallelogram of these edges is a rectangle.
+/// Says that a parallelogram of these edges is a rectangle.
 pub fn is_rectangle(edge_u: DVec3, edge_v: DVec3) -> bool {
     edge_u.dot(edge_v).abs() <= PERPENDICULAR * edge_u.length() * edge_v.length()
 }

@@ -34,6 +34,7 @@ pub mod validate;
 pub use animation::Animation;
 pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, EXPOSURE_STRETCHES, Projection};
+pub use check::FARTHEST;
 pub use digest::{BulkDigest, digest};
 pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};

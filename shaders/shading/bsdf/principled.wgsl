@@ -16,12 +16,6 @@
 #import shading/microfacet/albedo.wgsl
 #import shading/microfacet/sheen.wgsl
 
-// Largest share of the base's samples that the reflection takes, and least share of those of a reflection that there is.
-const MOST_REFLECTED: f32 = 0.95;
-const LEAST_REFLECTED: f32 = 0.02;
-// About what white fibres reflect of all light.
-const SHEEN_WEIGHT: f32 = 0.1;
-
 struct Principled {
     base: Spectrum,
     // Of the dielectric, at normal incidence.

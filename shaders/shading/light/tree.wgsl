@@ -7,11 +7,6 @@
 // A node takes four vec4 of the tables, two for each of its clusters:
 //   (center and radius of a sphere around it), (power; axis of the cone; cosines of its spread and reach; link)
 
-// Cosines and coordinates are multiples of 2^-14.
-const CLUSTER_STEP: f32 = 6.103515625e-5;
-// Least probability of a cluster that sends light to a point while the other one does as well, and least cosine that is reckoned with.
-const LEAST_CLUSTER_SHARE: f32 = 2.44140625e-4;
-const LEAST_CLUSTER_COSINE: f32 = 0.01;
 // All random bits but the last value.
 const WHOLE_LIGHT_RANGE: u32 = 0xffffffffu;
 

@@ -152,7 +152,7 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
             }
         }
         // What is left of the random number once it has chosen the lobe.
-        let left = clamp((choice - (below - probability)) / probability, 0.0, 0.99999994);
+        let left = clamp((choice - (below - probability)) / probability, 0.0, LARGEST_NUMBER);
         chosen = sample_lobe(weighted.lobe, surface, wo, left, u, v);
         chosen.weight *= weighted.weight;
         if chosen.pdf_solid_angle < 0.0 {

@@ -10,9 +10,6 @@
 #import shading/shape_point.wgsl
 #import shading/texture/tangent_space.wgsl
 
-// What it reflects at normal incidence.
-const COAT_REFLECTANCE: f32 = 0.04;
-
 struct Coat {
     // The part of the surface that it covers.
     strength: f32,

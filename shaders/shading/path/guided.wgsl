@@ -1,4 +1,5 @@
 // Scattering by a surface's BSDF and by a guide together. src/reference/guided.rs is the same in f64, and says how they share directions.
+#import core/layout.wgsl
 #import shading/material/bsdf.wgsl
 #import shading/path/guide.wgsl
 #import shading/material/scattering.wgsl
@@ -25,7 +26,7 @@ fn scatter_guided(
     cell: GuideCell, bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
     let by_guide = choice < cell.share;
-    let left = clamp((choice - cell.share) / (1.0 - cell.share), 0.0, 0.99999994);
+    let left = clamp((choice - cell.share) / (1.0 - cell.share), 0.0, LARGEST_NUMBER);
     var drawn = no_sample();
     var is_open = false;
 #if MORE_LOBES

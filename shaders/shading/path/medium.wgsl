@@ -4,9 +4,6 @@
 #import geometry/scene.wgsl
 #import shading/surface.wgsl
 
-// Farther nothing goes: where light leaves the scene its distance is no number to compute with.
-const FARTHEST: f32 = 1.0e20;
-
 // Share of light that is left after a distance within a volume.
 fn volume_transmittance(extinction: Spectrum, distance: f32) -> Spectrum {
     return exp(-min(extinction * min(distance, FARTHEST), Spectrum(87.0)));

@@ -14,8 +14,7 @@ struct Roulette {
 
 // At a surface where `incoming` arrived, and from which it would go on with this throughput; `eta_scale` is that of the refraction.
 fn roulette_at(incoming: Path, scatterer: Scatterer, throughput: Spectrum, eta_scale: f32, depth: u32) -> Roulette {
-    // Past depth 64 even a lossless path ends some day.
-    let largest = select(1.0, 0.999, depth >= 64u);
+    let largest = select(1.0, LARGEST_SURVIVAL, depth >= CERTAIN_ROULETTE_DEPTH);
 #if GUIDE
     if scatterer.guide.share == 0.0 {
         return Roulette(largest, incoming.roulette_scale);

@@ -7,6 +7,7 @@ use std::time::Instant;
 use gpt::RenderOptions;
 use gpt::Scene;
 use gpt::compare::flip::{PIXELS_PER_DEGREE, flip};
+use gpt::device::{ChosenDevice, ChosenRenderer};
 use gpt::load::SceneSource;
 use gpt::output::{OutputError, PICTURE_ENDINGS, PictureFormat};
 use gpt::picture_test::bless::{Blessed, bless};
@@ -15,7 +16,6 @@ use gpt::picture_test::golden::{Candidate, Golden};
 use gpt::picture_test::judge::{Judgement, judge};
 use gpt::picture_test::{PictureTestError, TestSettings};
 use gpt::plan::PlanOptions;
-use gpt::render::choice::{Choice, ChosenRenderer};
 use gpt::renderer::{DeviceChoice, Renderer};
 
 use super::folder::Job;
@@ -111,7 +111,7 @@ impl<'a> Maker<'a> {
             (device, _) => device.clone(),
         };
         let plan = PlanOptions { device_timeout: arguments.device_timeout, ..TraversalArguments::default().options() };
-        let ChosenRenderer { renderer, notice } = Choice::begin(&device, &plan).renderer(scene, &plan)?;
+        let ChosenRenderer { renderer, notice } = ChosenDevice::begin(&device, &plan).renderer(scene, &plan)?;
         if let (Some(notice), false) = (notice, arguments.quiet) {
             terminal::note(&notice);
         }

@@ -1,8 +1,9 @@
 //! Costs of the ways to draw from lights, as trial runs count them.
 //!
-//! All of them were measured on lavapipe, Mesa's Vulkan on the CPU; none was measured on hardware. They hold for every device all
-//! the same: the choice is one of the scene, or parts of a picture from different devices would not share it, and the two devices
-//! would not follow the same paths. On hardware, which traces rays at other prices, the choice may therefore not be the fastest.
+//! All of them were measured on lavapipe, Mesa's Vulkan on the CPU; none was measured on hardware. They hold
+//! for every device all the same: the choice is one of the scene, or parts of a picture from different
+//! devices would not share it, and the two devices would not follow the same paths. On hardware, which traces
+//! rays at other prices, the choice may therefore not be the fastest.
 
 /// Costs in rays of paths, each with the surface that it meets.
 pub struct Costs {
@@ -20,7 +21,8 @@ pub struct Costs {
     pub of_triangle: f64,
 }
 
-/// Costs where geometry is code (docs/strategies.md; guides: docs/performance.md). That of a tree is taken from [`TRAVERSED`].
+/// Costs where geometry is code (docs/strategies.md; guides: docs/performance.md). That of a tree is taken
+/// from [`TRAVERSED`].
 const SIMPLE: Costs =
     Costs { guide: 1.5, light_sample: 1.0, tree_of_lights: 1.4, cells_of_lights: 0.8, of_rectangle: 0.75, of_triangle: 2.2 };
 /// Costs where geometry is in a hierarchy. That of a triangle is to that of a rectangle as in [`SIMPLE`].

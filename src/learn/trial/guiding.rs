@@ -46,7 +46,8 @@ mod tests {
     use crate::sampling::Sampling;
     use crate::scene::{Estimator, Guiding, MisHeuristic, NumberOrAuto, RenderSettings, SamplerKind};
 
-    /// A room 4 wide whose light comes round the end of a wall, from a lamp of this WIDTH, on glaze and a mirror too.
+    /// A room 4 wide whose light comes round the end of a wall, from a lamp of this WIDTH, on glaze and a
+    /// mirror too.
     const ROOM: &str = r#"
         film = { size = [32, 24] }
         render = { spp = 1, max_depth = 6, guiding = "on", light_samples = 1 }
@@ -76,7 +77,8 @@ mod tests {
         integrator
     }
 
-    /// Of what paths beyond the first edge find: second moment, and number of rays, as guided paths tell them or as they are.
+    /// Second moment of the light beyond the first edge, and number of rays, as guided paths tell them or as
+    /// they are.
     fn moments(integrator: &Integrator, seed: u32, value: impl Fn(Tale) -> [f64; 2]) -> [Moments; 2] {
         let settings = &integrator.scene().render;
         let sampling = Sampling { path: SamplerKind::Independent, seed, ..Sampling::from(settings) };
@@ -105,7 +107,7 @@ mod tests {
             let told = moments(&integrator, 1, |tale| with_rays(tale.unguided, tale.rays));
             integrator.set_guide(None);
             let without = moments(&integrator, 2, |tale| with_rays(tale.guided, tale.rays));
-            // What is told, and that as if it were twice as much, or a tenth more.
+            // The estimate agrees, and does not if it were twice as much, or a tenth more.
             for (which, more) in [(0, 2.0), (1, 1.1)] {
                 let [told, without] = [&told[which], &without[which]];
                 let z = |factor: f64| {

@@ -1,10 +1,12 @@
-//! Settings for drawing from lights, where the scene leaves them open: a trial run renders some pixels and compares error times cost.
+//! Settings for drawing from lights, where the scene leaves them open: a trial run renders some pixels and
+//! compares error times cost.
 //!
-//! A trial run decides whether few lights are chosen by cells, how many light samples the first surfaces take, and whether points
-//! on rectangles and triangles are drawn by solid angle ([`LightSampling::Auto`]). All ways are tried with the same paths, so they
-//! differ by the noise of direct light alone. Random numbers are not those of the picture. Cost is counted, in rays, and not timed.
-//! So the choice depends on the scene, its settings and the size of its film: not on the seed, the number of samples, the device
-//! or the machine. Parts of a picture that are rendered on different devices therefore share one choice.
+//! A trial run decides whether few lights are chosen by cells, how many light samples the first surfaces
+//! take, and whether points on rectangles and triangles are drawn by solid angle ([`LightSampling::Auto`]).
+//! All ways are tried with the same paths, so they differ by the noise of direct light alone. Random numbers
+//! are not those of the picture. Cost is counted, in rays, and not timed. So the choice depends on the scene,
+//! its settings and the size of its film: not on the seed, the number of samples, the device or the machine.
+//! Parts of a picture that are rendered on different devices therefore share one choice.
 
 mod cost;
 mod guiding;
@@ -42,8 +44,8 @@ const MOST_IN_VAIN: u32 = 2;
 const ONE_OF_PIXELS: u64 = 1 << 10;
 const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
 
-/// Work of the first way that is tried, at most, and work after which no further way is: so that a trial run takes seconds,
-/// whatever the scene.
+/// Work of the first way that is tried, at most, and work after which no further way is: so that a trial run
+/// takes seconds, whatever the scene.
 const MOST_WORK_OF_WAY: f64 = 8.0 * work::SECOND as f64;
 const MOST_WORK: u64 = 32 * work::SECOND;
 
@@ -167,7 +169,8 @@ fn tried_pixels(scene: &Scene) -> u32 {
     (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32
 }
 
-/// Tries ways to draw from lights, and leaves the best one in the settings of the trial run. Returns the reasons.
+/// Tries ways to draw from lights, and leaves the best one in the settings of the trial run. Returns the
+/// reasons.
 fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
     let light_choice = if open.light_choice { LightChoice::Power } else { trial.settings.light_choice };
     let first = Tried { light_choice, sampling: trial.settings.light_sampling, samples: [1, 1], loss: 1.0 };
@@ -245,11 +248,11 @@ struct TrialRun<'a> {
     settings: RenderSettings,
     /// Geometry is few primitives.
     is_simple: bool,
-    /// Of lamps that can be drawn from by solid angle.
+    /// The costliest outline of a light whose points can be drawn by solid angle.
     costliest_outline: Option<Outline>,
     /// Pixels that are tried.
     pixels: u32,
-    /// Of the first way that was tried.
+    /// Shadow rays of the first way that was tried.
     shadow_rays: f64,
     /// Work of all ways that were tried.
     spent: u64,
@@ -301,9 +304,10 @@ impl<'a> TrialRun<'a> {
         found
     }
 
-    /// What rays take, in rays of paths, by what kernels take on software devices, where lanes wait for each other.
+    /// The cost of rays, in rays of paths, as kernels have it on software devices, where lanes wait for each
+    /// other.
     fn cost(&self, rays: Rays, settings: &RenderSettings) -> f64 {
-        // Where a lane goes on to its next path by itself, all wait for one that is at its first surface.
+        // Lanes that go on to their next paths by themselves wait for one that is at its first surface.
         let light_samples =
             if self.is_simple { f64::from(settings.several_light_samples()[0]) * self.shadow_rays } else { rays.shadow };
         rays.path + self.cost_of_light_sample(settings) * light_samples

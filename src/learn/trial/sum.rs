@@ -1,4 +1,4 @@
-//! What is added up over paths.
+//! Values that are added up over paths.
 
 /// A vector, in the sense of mathematics.
 pub trait Sum: Copy + Default + Send {

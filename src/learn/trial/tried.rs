@@ -17,7 +17,7 @@ use crate::sampling::{PathSampler, Sampling, SequencePoint};
 /// Each pixel is tried by so many independent pictures of so many samples.
 const PICTURES: u32 = 4;
 const SAMPLES: u32 = 16;
-/// Of what is in view, so many times as many pixels are looked at, each by so many pictures.
+/// Light in view is looked at in so many times as many pixels, each by so many pictures.
 const MORE_PIXELS: u32 = 16;
 /// Work after which no more are looked at.
 const MOST_WORK_IN_VIEW: u64 = 8 * work::SECOND;
@@ -26,10 +26,10 @@ const PICTURES_IN_VIEW: u32 = 2;
 const PIXELS_OF_PATCH: usize = 16;
 /// Least error that another way may leave, beside what there was.
 const LEAST_ERROR: f64 = 0.25;
-/// Of the random numbers.
+/// Seed of the random numbers.
 const SEED: u32 = 0x7069_6c6f;
 
-/// What came of a way.
+/// The result of one way of drawing from lights.
 pub struct Found {
     pixels: Vec<TriedPixel>,
     /// The cost of its paths, in rays of paths.
@@ -39,12 +39,12 @@ pub struct Found {
 }
 
 impl Found {
-    /// Of so many pixels; the cost is not known yet.
+    /// Renders so many pixels; the cost is not known yet.
     pub fn new(integrator: &Integrator, pixels: u32) -> Self {
         Self::recorded::<()>(integrator, pixels).0
     }
 
-    /// As [`Found::new`] of guided paths, with what they tell of unguided ones.
+    /// Renders so many pixels by guided paths, with what they tell about unguided ones.
     pub fn unguided(integrator: &Integrator, pixels: u32) -> (Self, Vec<Tale>) {
         Self::recorded::<UnguidedRecord>(integrator, pixels)
     }
@@ -88,15 +88,17 @@ impl Found {
         [own, in_view.error(beyond / self.pixels.len() as f64)]
     }
 
-    /// Error times cost, over that of another way. Errors are relative to what both ways found together: relative to what one of them found alone,
-    /// its own outliers would count for less than those of the other.
+    /// Error times cost, over that of another way. Errors are relative to what both ways found together:
+    /// relative to what one of them found alone, its own outliers would count for less than those of the
+    /// other.
     pub fn loss_over(&self, other: &Self, in_view: &InView) -> f64 {
         let together: Vec<DVec3> = self.together(other).collect();
         self.loss_beside(other, in_view, &together)
     }
 
-    /// As [`Found::loss_over`] of a way that makes outliers darker and more frequent. Errors are relative to what was found around a pixel: relative to what was
-    /// found in it, an outlier would count the same however bright it is.
+    /// [`Found::loss_over`] for a way that makes outliers darker and more frequent. Errors are relative to
+    /// the light around a pixel: relative to that in the pixel itself, an outlier would count the same
+    /// however bright it is.
     pub fn loss_of_outliers_over(&self, other: &Self, in_view: &InView) -> f64 {
         let mut patches = Patches::new(self.pixels.len());
         (0..).zip(self.together(other)).for_each(|(number, found)| patches.add(number, found));
@@ -104,7 +106,7 @@ impl Found {
         self.loss_beside(other, in_view, &around)
     }
 
-    /// What two ways found beyond what is in view.
+    /// The light that two ways found beyond light in view, as a mean for each pixel.
     fn together(&self, other: &Self) -> impl Iterator<Item = DVec3> {
         self.pixels.iter().zip(&other.pixels).map(|(own, others)| 0.5 * (own.mean + others.mean))
     }
@@ -122,8 +124,8 @@ impl Found {
     }
 }
 
-/// The error of guided paths, and that of unguided ones. Samples depend on each other by their random numbers, which makes the error less than
-/// the variance of a sample says, by the same share either way.
+/// The error of guided paths, and that of unguided ones. Samples depend on each other by their random
+/// numbers, which makes the error less than the variance of a sample says, by the same share either way.
 pub fn errors_of_guiding(found: &Found, tales: &[Tale], in_view: &InView) -> [f64; 2] {
     let mut variances = [0.0; 2];
     for ((pixel, weight), tale) in found.weighed().zip(tales) {
@@ -145,7 +147,7 @@ struct Patches {
 }
 
 impl Patches {
-    /// As many to a side of the film as give each about [`PIXELS_OF_PATCH`] out of so many pixels that are tried.
+    /// Patches of about [`PIXELS_OF_PATCH`] tried pixels each, as many along either side of the film.
     fn new(pixels: usize) -> Self {
         let side = (pixels / PIXELS_OF_PATCH).isqrt().max(1) as u32;
         Self { side, sums: vec![(DVec3::ZERO, 0.0); (side * side) as usize] }
@@ -156,7 +158,7 @@ impl Patches {
         (row * self.side + column) as usize
     }
 
-    /// What was found at the pixel with this number.
+    /// Adds the light of the pixel with this number.
     fn add(&mut self, number: u32, found: DVec3) {
         let index = self.index(number);
         let (sum, count) = &mut self.sums[index];
@@ -169,13 +171,13 @@ impl Patches {
     }
 }
 
-/// What squared errors are multiplied by.
+/// The weight of squared errors, for each channel.
 fn weight(mean: DVec3) -> DVec3 {
     DVec3::from_array(mean.to_array().map(relative_weight))
 }
 
-/// Lamps and the environment as they are in view. All ways of drawing from lights have the same noise at their edges, which few pixels show: those
-/// that are tried may miss them.
+/// Lamps and the environment as they are in view. All ways of drawing from lights have the same noise at
+/// their edges, which few pixels show: those that are tried may miss them.
 pub struct InView {
     /// Mean and variance of pixels.
     pixels: Vec<[DVec3; 2]>,
@@ -206,7 +208,8 @@ impl InView {
         Self { pixels: found, times }
     }
 
-    /// Of as many pixels as are tried, where so much light comes from beyond what is in view.
+    /// The error of light in view in as many pixels as are tried; `beyond` is the light that comes from
+    /// elsewhere.
     fn error(&self, beyond: DVec3) -> f64 {
         let error: f64 = self.pixels.iter().map(|[mean, variance]| variance.dot(weight(*mean + beyond))).sum();
         error / f64::from(self.times)
@@ -229,7 +232,7 @@ fn pictures(integrator: &Integrator, count: u32) -> Vec<Picture> {
 }
 
 impl Picture {
-    /// What a pixel shows.
+    /// Renders a pixel.
     fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> Shown<R::Told> {
         let size = integrator.scene().film.size;
         let [x, y] = pixel_of(number, size);
@@ -260,14 +263,14 @@ struct Shown<T> {
     told: T,
 }
 
-/// Of one of them.
+/// The mean of some values, and the variance of one of them.
 fn mean_and_variance(found: &[DVec3]) -> [DVec3; 2] {
     let count = found.len() as f64;
     let mean = found.iter().sum::<DVec3>() / count;
     [mean, found.iter().map(|one| (*one - mean) * (*one - mean)).sum::<DVec3>() / (count - 1.0)]
 }
 
-/// What came of a pixel.
+/// The result of a pixel.
 struct TriedPixel {
     in_view: DVec3,
     /// Light beyond, and its variance in one of the pictures.
@@ -307,7 +310,8 @@ mod tests {
         Integrator::new(&scene).expect("the reference can render the scene")
     }
 
-    /// Where a lamp ends within pixels, their samples differ: by as much whether few pixels are looked at or all, and not where it fills the view.
+    /// A light's edge within pixels makes their samples differ: by as much whether few pixels are looked at
+    /// or all. A light that fills the view does not.
     #[test]
     fn edges_of_lamps_in_view_have_noise() {
         let beyond = DVec3::ZERO;

@@ -1,10 +1,12 @@
-//! What guided paths tell of paths without a guide.
+//! Estimates of paths without a guide, made from guided ones.
 //!
-//! A trial run without a guide misjudges it, because it seldom sees the rare bright paths that a guide is for. Guided paths see them, and tell the
-//! variance of both ways: a path that has the density p_g with the guide and p_u without it finds, without it, other contributions c₁, c₂, …,
-//! since throughput goes with one over the density and multiple importance sampling weighs by other densities. With rₖ = p_u / p_g up to where the k-th
-//! is found, roulette's chances included, the mean of Σₖ rₖ cₖ (cₖ + 2 Σ_{j<k} cⱼ) over guided paths is the second moment of a sample without a guide,
-//! and the mean of rₖ over all rays is the number of its rays.
+//! A trial run without a guide misjudges it, because it seldom sees the rare bright paths that a guide is
+//! for. Guided paths see them, and tell the variance of both ways: a path that has the density p_g with the
+//! guide and p_u without it finds, without it, other contributions c₁, c₂, …, since throughput goes with one
+//! over the density and multiple importance sampling weighs by other densities. With rₖ = p_u / p_g up to
+//! where the k-th is found, roulette's chances included, the mean of Σₖ rₖ cₖ (cₖ + 2 Σ_{j<k} cⱼ) over guided
+//! paths is the second moment of a sample without a guide, and the mean of rₖ over all rays is the number of
+//! its rays.
 
 use glam::DVec3;
 
@@ -16,7 +18,7 @@ use crate::reference::trace::LightConnection;
 use crate::reference::{mis, roulette};
 use crate::scene::{Estimator, MisHeuristic, RenderSettings};
 
-/// What guided paths tell, of a sample.
+/// Moments and rays of a sample, as guided paths tell them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tale {
     /// Second moment of what guided ones find.
@@ -44,14 +46,15 @@ pub struct UnguidedRecord {
     first_roulette: Option<u32>,
     /// How many times as likely the path is without the guide, up to where it stands.
     density: f64,
-    /// The same of the direction that was told of last.
+    /// The factor of the direction that the visitor was told of last.
     times: f64,
-    /// Density with the guide of the direction from the surface before, and how many times that it is without the guide.
+    /// Density with the guide of the direction from the surface before, and how many times that it is without
+    /// the guide.
     previous: (Density, f64),
     throughput: DVec3,
     eta_scale: f64,
     depth: u32,
-    /// What the path finds, with the guide and without it, and the second moment of the latter.
+    /// The light that the path finds, with the guide and without it, and the second moment of the latter.
     found: DVec3,
     unguided: DVec3,
     moment: DVec3,
@@ -59,7 +62,7 @@ pub struct UnguidedRecord {
 }
 
 impl UnguidedRecord {
-    /// What the path found counts with another weight without the guide.
+    /// Adds light that the path found; without the guide it has another weight.
     fn add(&mut self, contribution: DVec3, [weight, unguided]: [f64; 2]) {
         if contribution == DVec3::ZERO {
             return;

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::super::paths::MOST_VERTICES;
 use super::rays::Rays;
 use super::sum::Sum;
 use crate::reference::bsdf::BsdfSample;
@@ -9,24 +10,22 @@ use crate::reference::intersect::Surface;
 use crate::reference::trace::{LightConnection, PathVisitor};
 use crate::scene::RenderSettings;
 
-/// Vertices after which a path is given up.
-const MOST_VERTICES: u32 = 64;
-
-/// What a path tells of other ways to trace it. Light in view is no part of that: no other way changes it.
+/// A record of a path that tells how other ways would trace it. Light in view is no part of that: no other
+/// way changes it.
 pub trait Record {
     type Told: Sum;
-    /// As [`PathVisitor::COMPARES`].
+    /// The record wants [`PathVisitor::COMPARES`].
     const COMPARES: bool = false;
 
     fn new(settings: &RenderSettings) -> Self;
-    /// What it has told by its end.
+    /// The result at the path's end.
     fn told(&self) -> Self::Told;
 
     /// A ray of the path, or a shadow ray, was traced.
     fn traced(&mut self, _rays: Rays) {}
     /// The path met a surface.
     fn met(&mut self, _depth: u32, _throughput: DVec3) {}
-    /// As [`PathVisitor::unguided`].
+    /// The next direction is told as by [`PathVisitor::unguided`].
     fn unguided(&mut self, _times: f64) {}
     /// Light was sampled.
     fn light(&mut self, _connection: &LightConnection) {}

@@ -1,11 +1,10 @@
-//! Lights that next event estimation samples, in the scene's order, with the table that chooses among them.
+//! Lights that next event estimation samples, those of [`LightList`] in its order, with the table that chooses among them.
 
 pub mod record;
 mod surface;
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::f64::consts::PI;
 
 use glam::DVec3;
 
@@ -16,11 +15,12 @@ use super::primitive::WorldPrimitive;
 use super::texture::{self, PackedTextures};
 use super::world::WorldGeometry;
 use crate::emission_map::{EmissionMaps, Unrolled};
+use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
 use crate::sampling::light_tree::{Emitter, LightNode};
 use crate::sampling::light_way::LightWay;
-use crate::sampling::{AliasTable, HierarchicalWarp, LightCells, LightGroup, LightSampler, LightTree};
+use crate::sampling::{AliasTable, HierarchicalWarp, LightCells, LightTree};
 use crate::scene::light::light_table;
-use crate::scene::{Estimator, Light, LightStrength, Scene};
+use crate::scene::{Estimator, Light, Scene};
 use record::PORTAL_SHIFT;
 pub use record::{LightKind, PackedLight, PackedWarp, constants};
 use surface::{SurfaceEmission, surface_light};
@@ -37,12 +37,6 @@ macro_rules! delta_kinds {
     };
 }
 light_table!(delta_kinds);
-
-fn delta_light(light: &Light, texture: u32) -> Option<(PackedLight, LightStrength)> {
-    let parameters = light.delta()?;
-    let packed = PackedLight::delta(delta_kind(light)?, &parameters, texture);
-    parameters.strength.is_positive().then_some((packed, parameters.strength))
-}
 
 /// The light from outside the scene; a map is appended to the texels.
 ///
@@ -84,18 +78,15 @@ pub fn collect(
     thrown_textures: &[u32],
     textures: &mut PackedTextures,
 ) -> Result<SampledLights, PackError> {
-    if scene.render.estimator == Estimator::Bsdf {
-        return Ok(SampledLights::default());
-    }
-    let (mut lights, mut sampler) = (Vec::new(), LightSampler::default());
     // Asked once a material, not once a triangle: a texture's mean looks at all of it, and a blend's at all of its parts.
     let emits = scene.materials_that(|material| material.emission.is_some());
     let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
     let emissions: Vec<_> = (0..emits.len()).map(|id| emits[id].then(|| SurfaceEmission::of(scene, id, two_sided[id]))).collect();
     let maps = EmissionMaps::new(scene);
     let mut warps: HashMap<(usize, Unrolled), PackedWarp> = HashMap::new();
-    let mut powers = Vec::new();
-    for primitive in &mut world.primitives {
+    let (mut surfaces, mut surface_lights) = (Vec::new(), Vec::new());
+    let is_sampled = scene.render.estimator != Estimator::Bsdf;
+    for primitive in world.primitives.iter_mut().filter(|_| is_sampled) {
         let Some(emission) = &emissions[primitive.material] else { continue };
         let attributes = world.attributes.get(primitive.attributes as usize);
         // Where there are second texture coordinates, they stand behind the first.
@@ -112,24 +103,25 @@ pub fn collect(
         };
         let light = surface_light(primitive, emission, scene.render.light_sampling, warp, attributes);
         if let Some(light) = light.filter(|_| power > 0.0) {
-            primitive.light = lights.len() as u32;
-            lights.push(light);
-            powers.push(power);
-            let group = LightGroup::Surface { shape: primitive.shape, material: primitive.material };
-            sampler.add(group, LightStrength::Power(power));
+            // Surfaces are the first lights.
+            primitive.light = surfaces.len() as u32;
+            surfaces.push(EmittingSurface { shape: primitive.shape, material: primitive.material, power });
+            surface_lights.push(light);
         }
     }
-    let is_local = |(_, strength): &(PackedLight, LightStrength)| matches!(strength, LightStrength::Power(_));
-    let delta_lights = scene.lights.iter().zip(thrown_textures).filter_map(|(light, &texture)| delta_light(light, texture));
-    let (local, at_infinity): (Vec<_>, Vec<_>) = delta_lights.partition(is_local);
-    for (light, strength) in local.into_iter().chain(at_infinity) {
-        lights.push(light);
-        sampler.add(LightGroup::Alone, strength);
-    }
-    for (light, irradiance) in environment_lights(scene, world, environment) {
-        lights.push(light);
-        sampler.add(LightGroup::Environment, LightStrength::Irradiance(irradiance));
-    }
+    let outside = OutsideLight { mean_luminance: environment.mean_luminance, is_constant: environment.is_constant };
+    let areas: Vec<f64> = world.portals.iter().map(WorldPrimitive::area).collect();
+    let LightList { sources, sampler } = LightList::new(scene, &surfaces, outside, &areas);
+    let packed = |source: &LightSource| match *source {
+        LightSource::Surface(number) => Some(surface_lights[number]),
+        LightSource::Delta(number) => {
+            let light = &scene.lights[number];
+            Some(PackedLight::delta(delta_kind(light)?, &light.delta()?, thrown_textures[number]))
+        }
+        LightSource::Environment => Some(PackedLight::at(DVec3::ZERO, DVec3::ZERO).of_kind(LightKind::Environment)),
+        LightSource::Portal(number) => portal_light(&world.portals[number]),
+    };
+    let mut lights: Vec<PackedLight> = sources.iter().filter_map(packed).collect();
     let table = sampler.table();
     for (index, light) in lights.iter_mut().enumerate() {
         light.alias = table.alias[index];
@@ -145,10 +137,10 @@ pub fn collect(
         }
         LightWay::Tree => choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity()),
     }
-    let of_surface = |(primitive, power): (&WorldPrimitive, f64)| {
-        Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?, power))
+    let of_surface = |(primitive, surface): (&WorldPrimitive, &EmittingSurface)| {
+        Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?, surface.power))
     };
-    let surfaces = world.primitives.iter().filter(|primitive| primitive.light != NONE).zip(powers).filter_map(of_surface);
+    let surfaces = world.primitives.iter().filter(|primitive| primitive.light != NONE).zip(&surfaces).filter_map(of_surface);
     let delta_lights = scene.lights.iter().filter_map(Light::delta).filter(|light| light.strength.is_positive());
     let emitters: Vec<Emitter> = surfaces.chain(delta_lights.filter_map(|light| Emitter::delta(&light))).collect();
     let LightTree { nodes, trails, .. } = LightTree::new(&emitters, sampler.table_at_infinity());
@@ -188,29 +180,15 @@ fn emitter(scene: &Scene, primitive: &WorldPrimitive, emission: &SurfaceEmission
     Emitter::surface(bounds, primitive.geometry.light_normal(), emission.two_sided(), power)
 }
 
-/// The environment and the portals to it, each with a measure of the irradiance it makes.
-fn environment_lights(scene: &Scene, world: &WorldGeometry, environment: &PackedEnvironment) -> Vec<(PackedLight, f64)> {
-    let mut lights = Vec::new();
-    let irradiance = PI * environment.mean_luminance;
-    if irradiance == 0.0 {
-        return lights;
-    }
-    let infinitely_far = PackedLight::at(DVec3::ZERO, DVec3::ZERO);
-    // Under `mis` a constant environment is left to BSDF sampling, which covers it without a shadow ray.
-    if scene.render.estimator == Estimator::Nee || !environment.is_constant {
-        lights.push((infinitely_far.of_kind(LightKind::Environment), irradiance));
-    }
-    let total: f64 = world.portals.iter().map(WorldPrimitive::area).sum();
-    for portal in &world.portals {
-        let Some((size, [p0, p1, p2])) = portal.geometry.light() else { continue };
-        let light = PackedLight {
-            kind_and_flags: (portal.kind() as u32) << PORTAL_SHIFT,
-            size: size as f32,
-            p1: p1.as_vec3().to_array(),
-            p2: p2.as_vec3().to_array(),
-            ..PackedLight::at(p0, DVec3::ZERO)
-        };
-        lights.push((light.of_kind(LightKind::Portal), irradiance * portal.area() / total));
-    }
-    lights
+/// A portal as a light; None where points of it cannot be drawn.
+fn portal_light(portal: &WorldPrimitive) -> Option<PackedLight> {
+    let (size, [p0, p1, p2]) = portal.geometry.light()?;
+    let light = PackedLight {
+        kind_and_flags: (portal.kind() as u32) << PORTAL_SHIFT,
+        size: size as f32,
+        p1: p1.as_vec3().to_array(),
+        p2: p2.as_vec3().to_array(),
+        ..PackedLight::at(p0, DVec3::ZERO)
+    };
+    Some(light.of_kind(LightKind::Portal))
 }

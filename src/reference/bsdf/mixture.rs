@@ -10,10 +10,8 @@ use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::reference::intersect::{Surface, UvSet};
 use crate::reference::work;
+use crate::sampling::sampler::LARGEST_NUMBER;
 use crate::scene::{BlendMode, Material, MaterialId, Scene};
-
-/// The largest lobe number: random numbers are multiples of 2⁻²⁴ below 1.
-const LARGEST_LOBE_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
 
 /// The scattering at one hit: the lobes of all materials that the surface blends, parameters looked up, seen from one direction.
 ///
@@ -155,7 +153,7 @@ impl Bsdf {
         let mut before = 0.0;
         for (index, weighted) in self.lobes.iter().enumerate() {
             if u < before + weighted.probability || index == last {
-                return Some((weighted, ((u - before) / weighted.probability).clamp(0.0, LARGEST_LOBE_NUMBER)));
+                return Some((weighted, ((u - before) / weighted.probability).clamp(0.0, LARGEST_NUMBER)));
             }
             before += weighted.probability;
         }

@@ -14,15 +14,9 @@ use super::sheen::Sheen;
 use super::view::View;
 use crate::math::Frame;
 use crate::reference::intersect::{NormalTexel, UvSet};
+use crate::scene::material::principled::{COAT_REFLECTANCE, LEAST_REFLECTED, MOST_REFLECTED, SHEEN_WEIGHT};
 use crate::scene::material::{AlbedoTable, DELTA_ALPHA, SMALLEST_BEND, SMALLEST_SHEEN_ROUGHNESS};
 use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};
-
-/// Largest share of the base's samples that the surface's reflection takes: facets that are turned away from the normal let more through.
-const MOST_REFLECTED: f64 = 0.95;
-/// Least share of samples of a reflection that there is: other facets reflect more than one along the normal.
-const LEAST_REFLECTED: f64 = 0.02;
-/// About what white fibres reflect of all light.
-const SHEEN_WEIGHT: f64 = 0.1;
 
 /// With h the half vector, s = (1 − |wo·h|)⁵, D and G those of GGX, and M = D·G/(4·cosθo·cosθi):
 ///
@@ -117,7 +111,7 @@ impl Principled {
 
     /// The coat lies on the outside.
     fn coat_reflectance(&self, view: &View, cosine: f64) -> f64 {
-        if self.is_within(view) { 0.0 } else { self.coat * schlick_reflectance(cosine, DVec3::splat(0.04)).x }
+        if self.is_within(view) { 0.0 } else { self.coat * schlick_reflectance(cosine, DVec3::splat(COAT_REFLECTANCE)).x }
     }
 
     /// What fibres leave to what lies below.

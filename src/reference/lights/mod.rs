@@ -1,4 +1,4 @@
-//! What light is sampled from: emitting primitives, then lights that are no surfaces, then portals, chosen by [`LightSampler`].
+//! Lights that next event estimation samples: those of [`LightList`], in its order.
 //!
 //! Portals are one more way of drawing directions to the environment. A direction to it then has one density, that of all ways together,
 //! whichever of them drew it.
@@ -19,12 +19,13 @@ use super::intersect::{Outline, Owner, PathTime, PreparedRay, Primitive, Ray, Su
 use super::work;
 use crate::emission_map::{EmissionMaps, LampPart, Unrolled};
 use crate::sampling::light_cells::{LightCellChoice, LightCells, LitPoint};
+use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
 use crate::sampling::light_tree::Emitter;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::sampler::uniform;
-use crate::sampling::{AliasTable, HierarchicalWarp, LightGroup, LightSampler, LightTree};
+use crate::sampling::{AliasTable, HierarchicalWarp, LightTree};
 use crate::scene::light::light_table;
-use crate::scene::{Estimator, Light, LightSampling, LightStrength, MaterialId, MaterialKind, Scene};
+use crate::scene::{Light, LightSampling, MaterialId, MaterialKind, Scene};
 use delta::DeltaLight;
 pub use outside::Outside;
 
@@ -115,14 +116,12 @@ pub struct LightSample {
 
 impl Lights {
     pub fn new(scene: &Scene, world: &World) -> Self {
-        let (mut lights, mut sampler) = (Vec::new(), LightSampler::default());
-        let mut of_primitive = vec![None; world.indices_in_scene_order().len()];
         // Once a material, not once a primitive: a texture's mean looks at all of it.
         let emits = scene.materials_that(|material| material.emission.is_some());
         let exitances: Vec<f64> = (0..emits.len()).map(|id| if emits[id] { mean_exitance(scene, id) } else { 0.0 }).collect();
         let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
         let maps = EmissionMaps::new(scene);
-        let (mut powers, mut warps) = (Vec::new(), HashMap::new());
+        let (mut indices, mut surfaces, mut warps) = (Vec::new(), Vec::new(), HashMap::new());
         for &index in world.indices_in_scene_order() {
             let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(index));
             if exitances[material] == 0.0 {
@@ -134,44 +133,32 @@ impl Lights {
                 if let Some(unrolled) = world.primitive(index).element().unrolled() {
                     warps.extend(maps.warp(material, unrolled).map(|warp| ((material, unrolled), warp.clone())));
                 }
-                of_primitive[index] = Some(lights.len() as u32);
-                lights.push(SampledLight::Area(index));
-                powers.push(power);
-                sampler.add(LightGroup::Surface { shape, material }, LightStrength::Power(power));
+                indices.push(index);
+                surfaces.push(EmittingSurface { shape, material, power });
             }
         }
-        let with_strength = |light| Some((delta_light(scene, light)?, light.delta()?.strength));
-        let delta_lights = scene.lights.iter().filter_map(with_strength).filter(|(_, strength)| strength.is_positive());
-        let (local, at_infinity): (Vec<_>, Vec<_>) =
-            delta_lights.partition(|(_, strength)| matches!(strength, LightStrength::Power(_)));
-        for (light, strength) in local.into_iter().chain(at_infinity) {
-            sampler.add(LightGroup::Alone, strength);
-            lights.push(SampledLight::Delta(light));
-        }
-        let local_count = sampler.local_count();
         let outside = Outside::of(scene.lights.iter().filter_map(outside_light));
-        let irradiance = PI * outside.mean_luminance();
-        let mut environment_light = None;
-        // Where BSDF sampling takes part, it finds a constant environment better than light sampling does.
-        let is_sampled = scene.render.estimator == Estimator::Nee || !outside.is_constant();
-        if irradiance > 0.0 && is_sampled {
-            environment_light = Some(lights.len());
-            lights.push(SampledLight::Environment);
-            sampler.add(LightGroup::Environment, LightStrength::Irradiance(irradiance));
-        }
-        let first_portal = lights.len();
+        let outside_light = OutsideLight { mean_luminance: outside.mean_luminance(), is_constant: outside.is_constant() };
         let areas: Vec<f64> = world.portals().iter().map(Primitive::area).collect();
-        if irradiance > 0.0 {
-            let total: f64 = areas.iter().sum();
-            for (portal, area) in areas.iter().enumerate() {
-                lights.push(SampledLight::Portal(portal));
-                sampler.add(LightGroup::Environment, LightStrength::Irradiance(irradiance * area / total));
+        let LightList { sources, sampler } = LightList::new(scene, &surfaces, outside_light, &areas);
+        let mut of_primitive = vec![None; world.indices_in_scene_order().len()];
+        let sampled = |(light, source): (usize, &LightSource)| match *source {
+            LightSource::Surface(number) => {
+                of_primitive[indices[number]] = Some(light as u32);
+                Some(SampledLight::Area(indices[number]))
             }
-        }
+            LightSource::Delta(number) => delta_light(scene, &scene.lights[number]).map(SampledLight::Delta),
+            LightSource::Environment => Some(SampledLight::Environment),
+            LightSource::Portal(number) => Some(SampledLight::Portal(number)),
+        };
+        let lights: Vec<SampledLight> = sources.iter().enumerate().filter_map(sampled).collect();
+        let local_count = sampler.local_count();
+        let environment_light = sources.iter().position(|source| *source == LightSource::Environment);
+        let first_portal = sources.iter().position(|source| matches!(source, LightSource::Portal(_))).unwrap_or(sources.len());
         let sampling = scene.render.light_sampling;
         let (way, group_count) = (LightWay::of(scene.render.light_choice, &sampler), sampler.group_count());
         let has_tree = way != LightWay::Power && local_count > 1;
-        let tree = has_tree.then(|| LightTree::new(&emitters(scene, world, &lights, &powers), sampler.table_at_infinity()));
+        let tree = has_tree.then(|| LightTree::new(&emitters(scene, world, &indices, &surfaces), sampler.table_at_infinity()));
         let table = sampler.table();
         let cells = (way == LightWay::Cells).then(|| LightCellChoice::new(table.clone()));
         Self {
@@ -422,11 +409,10 @@ fn exitance_of_part(maps: &EmissionMaps, (material, two_sided): (MaterialId, boo
     Some(PI * maps.luminance(material, part)? * if two_sided { 2.0 } else { 1.0 })
 }
 
-/// What the tree knows of the lights inside the scene, in their order. `powers` are those of the surfaces among them.
-fn emitters(scene: &Scene, world: &World, lights: &[SampledLight], powers: &[f64]) -> Vec<Emitter> {
+/// What the tree knows of the lights inside the scene, in their order; the surfaces among them are these primitives.
+fn emitters(scene: &Scene, world: &World, indices: &[usize], surfaces: &[EmittingSurface]) -> Vec<Emitter> {
     let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
-    let of_surface = |index: usize, power: f64| {
-        let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(index));
+    let of_surface = |(&index, &EmittingSurface { shape, material, power }): (&usize, &EmittingSurface)| {
         let (element, shape) = (world.primitive(index).element(), &scene.shapes[shape]);
         let bounds = element.bounds().unwrap_or_default();
         if shape.motion.is_some() {
@@ -434,13 +420,8 @@ fn emitters(scene: &Scene, world: &World, lights: &[SampledLight], powers: &[f64
         }
         Emitter::surface(bounds, element.normal(), two_sided[material], power)
     };
-    // Surfaces are the first.
-    let surfaces = lights.iter().zip(powers).filter_map(|(light, power)| match light {
-        SampledLight::Area(index) => Some(of_surface(*index, *power)),
-        _ => None,
-    });
     let delta_lights = scene.lights.iter().filter_map(Light::delta).filter(|light| light.strength.is_positive());
-    surfaces.chain(delta_lights.filter_map(|light| Emitter::delta(&light))).collect()
+    indices.iter().zip(surfaces).map(of_surface).chain(delta_lights.filter_map(|light| Emitter::delta(&light))).collect()
 }
 
 #[cfg(test)]

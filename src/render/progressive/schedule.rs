@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use crate::renderer::CAUTION;
+
 /// Steps before a deadline add this much of what is done.
 pub const GROWTH: f64 = 0.25;
 /// And at least this factor is rendered before the error is looked at again.
@@ -9,8 +11,6 @@ pub const LEAST_GROWTH: f64 = 1.05;
 
 /// With a deadline, a step lasts at least this long, lest steps be nothing but overhead.
 const SHORTEST_STEP: Duration = Duration::from_millis(200);
-/// A step must be expected to end within this part of the time left.
-const CAUTION: f64 = 0.95;
 
 /// The first stage has at least so many samples per pixel, all streams together.
 const FEWEST_SAMPLES: u32 = 16;

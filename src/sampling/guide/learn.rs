@@ -18,7 +18,8 @@ const MOST_ARRIVALS: usize = 3072;
 const DOUBT: f64 = 16.0;
 /// Least even share of a histogram.
 const LEAST_EVEN_SHARE: f64 = 0.03;
-/// What a bin gives to each of its four neighbours: light moves a little from one end of a cell to the other.
+/// Share that a bin gives to each of its four neighbours: light moves a little from one end of a cell to the
+/// other.
 const SPILL: f64 = 0.1;
 
 /// Light that arrived at a point of a surface by one direction. In single precision: there are millions of them.
@@ -36,7 +37,7 @@ pub struct Arrival {
     pub sent_on: [f32; 2],
 }
 
-/// What a guide is put together from.
+/// The parts that a guide is put together from.
 struct Learner<'a> {
     arrivals: &'a [Arrival],
     /// The boxes of the grid that they are in, where they are in one.
@@ -117,7 +118,7 @@ impl Learner<'_> {
         self.cell(members).map(|words| Cell { facing, region, words }).into_iter().collect()
     }
 
-    /// What is learned of a cell. None where no light arrives.
+    /// The words of a cell. None where no light arrives.
     fn cell(&self, members: &[u32]) -> Option<[u32; CELL_WORDS]> {
         let arrivals = || members.iter().map(|&number| &self.arrivals[number as usize]);
         let normal: DVec3 = arrivals().map(|arrival| arrival.normal.as_dvec3()).sum();

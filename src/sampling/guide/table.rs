@@ -1,6 +1,7 @@
 //! A guide as a table, and what is read from it.
 //!
-//! It begins as [`crate::sampling::cell_grid`] says, with the cell's number from 1 in the index, or 0 where there is no guide.
+//! The table begins as [`crate::sampling::cell_grid`] says, with the cell's number from 1 in the index, or 0
+//! where there is no guide.
 //! Then come [`GUIDE_CELL_WORDS`] for each cell: its axis, and its bins, row after row. Of a bin the lower half is its start, the sum of the shares of all
 //! bins before it, and the upper half its share, in 65536ths. Then, as the bits of f32, what a surface there sends on ([`GuideCell::sent_on`]).
 
@@ -62,7 +63,8 @@ impl Guide {
         self.words[7] as usize
     }
 
-    /// What the guide knows of a point on a surface, whose normal is on the side from where it is seen.
+    /// The cell of a point on a surface, whose normal is on the side from where it is seen; None where
+    /// nothing is known there.
     pub fn cell(&self, position: DVec3, normal: DVec3) -> Option<GuideCell<'_>> {
         let index = CellGrid::of_table(&self.words).index_of(facing(normal), position)?;
         let number = self.words[GRID_HEADER_WORDS as usize + index];
@@ -78,7 +80,8 @@ impl GuideCell<'_> {
         self.frame
     }
 
-    /// What a surface here sends on, on average, per throughput: of light that comes by way of its scattering, and of all light.
+    /// Light per throughput that a surface here sends on, on average: light that comes by way of its
+    /// scattering, and all light.
     pub fn sent_on(&self) -> [f64; 2] {
         [1, 2].map(|behind| f64::from(f32::from_bits(self.words[BINS + behind])))
     }

@@ -14,7 +14,7 @@ fn deviation(warp: &HierarchicalWarp, weights: &[f64]) -> f64 {
     warp.densities.iter().zip(weights).map(apart).fold(0.0, f64::max)
 }
 
-/// What holds for any weights.
+/// Checks what holds for any weights.
 fn check(width: u32, height: u32, weights: &[f64]) -> HierarchicalWarp {
     let warp = warp(width, height, weights);
     assert_eq!(warp.densities.len(), weights.len());
@@ -53,7 +53,7 @@ fn shares_are_those_of_the_weights_at_any_resolution() {
     for (width, height, weights) in cases {
         let apart = deviation(&check(width, height, &weights), &weights);
         assert!(apart < 1e-4, "{width} x {height}: {apart}");
-        // Of other weights they are not the shares.
+        // Negative control: they are not the shares of other weights.
         let mut others = weights.clone();
         if let Some(weight) = others.iter_mut().rev().find(|weight| **weight > 0.0)
             && weights.iter().filter(|weight| **weight > 0.0).count() > 1
@@ -74,7 +74,8 @@ fn extreme_contrasts_leave_every_cell_its_points() {
                 let weights: Vec<f64> = (0..width * height).map(|i| if i == bright { contrast } else { 1.0 }).collect();
                 let warp = check(width, height, &weights);
                 let cells = f64::from(width) * f64::from(height);
-                // What the other rows and columns get at the least is no more than 2⁻³¹ of the square for each of theirs.
+                // The other rows and columns get, at the least, no more than 2⁻³¹ of the square for each of
+                // theirs.
                 let expected = contrast / (contrast + cells - 1.0);
                 let found = warp.densities[bright as usize] / cells;
                 assert!((found / expected - 1.0).abs() < 2e-6, "{width} x {height}, {contrast:e}: {found} of {expected}");

@@ -27,7 +27,7 @@ pub struct Division {
 }
 
 impl Division {
-    /// Of some points; the same of the same points in the same order.
+    /// Divides some points; equal points in equal order give equal divisions.
     pub fn new(points: &[LitPoint]) -> Self {
         let grid = CellGrid::around(points.par_iter().map(|point| point.point), MOST_BOXES);
         let mut division = Self { grid, index: grid.empty_index(), cells: Vec::new() };

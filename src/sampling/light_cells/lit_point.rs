@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use crate::sampling::cell_grid::facing;
 
-/// Where light is sampled from: a point on a surface, and which way the surface faces there.
+/// A point of a surface that light is sampled from, and the way in which the surface faces there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LitPoint {
     pub point: DVec3,
-    /// As [`facing`] says.
+    /// The way in which the surface faces, by [`facing`].
     pub facing: u32,
 }
 

@@ -1,6 +1,7 @@
 //! Cells of lights as a table, and what is read from it.
 //!
-//! It begins as [`crate::sampling::cell_grid`] says, with the cell's number from 1 in the index, or 0 where nothing is known. Then come
+//! The table begins as [`crate::sampling::cell_grid`] says, with the cell's number from 1 in the index, or 0
+//! where nothing is known. Then come
 //! [`LIGHT_CELL_SLOTS`] for each cell, by the number of the light that they name, which is in the lower bits; in the upper ones stands how
 //! many slots of the cell name it.
 
@@ -11,12 +12,12 @@ use crate::sampling::cell_grid::{CellGrid, GRID_HEADER_WORDS};
 pub const LIGHT_UNIT_BITS: u32 = 7;
 /// The probability of one of these bits' values.
 pub const LIGHT_UNIT: f32 = 1.0 / (1 << LIGHT_UNIT_BITS) as f32;
-/// Of these bits' values, the first so many leave the choice to power, a power of two.
+/// Number of these bits' values that leave the choice to power, the first ones: a power of two.
 pub const LIGHT_UNITS_BY_POWER_BITS: u32 = 4;
 pub const LIGHT_UNITS_BY_POWER: u32 = 1 << LIGHT_UNITS_BY_POWER_BITS;
 /// The rest of the values: slots of a cell.
 pub const LIGHT_CELL_SLOTS: u32 = (1 << LIGHT_UNIT_BITS) - LIGHT_UNITS_BY_POWER;
-/// Where the number of slots stands in a slot, above the number of the light.
+/// Bit of a slot at which the number of slots begins, above the number of the light.
 pub const LIGHT_SLOT_COUNT_SHIFT: u32 = 20;
 pub const LIGHT_SLOT_MASK: u32 = (1 << LIGHT_SLOT_COUNT_SHIFT) - 1;
 /// Least power of two of which twice is more than the slots: from there on they are searched by halves.
@@ -63,7 +64,7 @@ impl LightCells {
         self.words[HEADER - 1] as usize
     }
 
-    /// What is known of a point on a surface.
+    /// The cell of a point on a surface; None where nothing is known there.
     pub fn cell(&self, from: LitPoint) -> Option<LightCell<'_>> {
         let index = CellGrid::of_table(&self.words).index_of(from.facing, from.point)?;
         let number = self.words[HEADER + index];
@@ -82,7 +83,7 @@ impl LightCell<'_> {
     /// The light that 32 random bits choose.
     ///
     /// # Errors
-    /// Where the choice is left to power: the bits to make it by.
+    /// The light that the bits choose, or the bits to choose by power with.
     pub fn choose(&self, bits: u32) -> Result<u32, u32> {
         let unit = bits >> (32 - LIGHT_UNIT_BITS);
         match unit.checked_sub(LIGHT_UNITS_BY_POWER) {

@@ -38,7 +38,7 @@ fn choice() -> LightCellChoice {
     choice
 }
 
-/// Those that were learned from, and others far away and outside.
+/// Points that were learned from, and others far away and outside.
 fn asked() -> impl Iterator<Item = LitPoint> {
     let others = [DVec3::new(1e4, 1.0, 0.0), DVec3::splat(-1e9), DVec3::new(5.0, 1.5, 5.0)];
     points().into_iter().step_by(50).chain(others.map(|point| LitPoint::new(point, DVec3::Y)))
@@ -54,7 +54,8 @@ fn probabilities_sum_to_one_everywhere_and_are_never_0() {
     }
 }
 
-/// Of bits at random; and one light's share given to another is noticed.
+/// Random bits choose each light as often as its probability says; one light's share given to another is
+/// noticed.
 #[test]
 fn lights_are_chosen_as_often_as_their_probabilities_say() {
     let (choice, draws) = (choice(), 40_000);

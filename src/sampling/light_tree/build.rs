@@ -47,8 +47,8 @@ impl Cluster {
         self.low + self.high
     }
 
-    /// What choosing among its lights costs: power times how far they lie apart and how differently they shine. The squared diagonal, not
-    /// the area, because lamps often stand in a line.
+    /// The cost of choosing among the lights: power times how far they lie apart and how differently they
+    /// shine. The squared diagonal counts, not the area, because lights often stand in a line.
     fn cost(&self) -> f64 {
         self.power * self.cone.measure() * (self.high - self.low).as_dvec3().length_squared()
     }
@@ -179,7 +179,7 @@ fn cheapest_cut(leaves: &[Leaf]) -> Option<Cut> {
             let bucket = &mut buckets[bucket_of(leaf, axis, range)];
             *bucket = join(*bucket, Some(leaf.cluster));
         }
-        // Of all buckets from each one on.
+        // The union of all buckets from each one on.
         let mut behind = [None; BUCKETS];
         for bucket in (1..BUCKETS).rev() {
             behind[bucket] = join(buckets[bucket], behind.get(bucket + 1).copied().flatten());

@@ -10,12 +10,12 @@ pub const LEAF: u32 = 1 << 31;
 pub const TWO_SIDED: u32 = 1 << 30;
 pub const NUMBER_MASK: u32 = TWO_SIDED - 1;
 
-/// Cosines and coordinates are kept in 16 bits as multiples of 1 over this, a power of two: 1 comes back as 1.
-const STEPS: f64 = 16384.0;
-/// Where both clusters send light to a point, each has this probability at least: what is known of them is rough.
-const LEAST: f64 = 1.0 / 4096.0;
+/// Cosines and coordinates are kept in 16 bits as multiples of this, a power of two: 1 comes back as 1.
+pub const STEP: f64 = 1.0 / 16384.0;
+/// Least probability of a cluster that sends light to a point while the other one does as well: what is known of them is rough.
+pub const LEAST_SHARE: f64 = 1.0 / 4096.0;
 /// Least cosine at the lights that is reckoned with, for the same reason.
-const LEAST_COSINE: f64 = 0.01;
+pub const LEAST_COSINE: f64 = 0.01;
 
 /// Two clusters of lights.
 #[repr(C)]
@@ -28,10 +28,10 @@ pub struct LightNode {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct LightCluster {
-    /// Of a sphere around them.
+    /// Centre of a sphere around the lights.
     pub center: [f32; 3],
     pub radius: f32,
-    /// As a share of that of all lights in the tree.
+    /// Power of the lights, as a share of that of all lights in the tree.
     pub power: f32,
     /// The axis of their cone on an octahedron unfolded to a square: two numbers of 16 bits, the first in the lower half.
     pub axis: u32,
@@ -44,7 +44,7 @@ pub struct LightCluster {
 /// Least distance that is reckoned with where points and lights lie among each other, as a share of the radius of both.
 const NEAREST: f64 = 0.25;
 
-/// What a cluster can send to a point.
+/// Light that a cluster can send to a point.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     /// Power times the largest cosine there can be; 0 where nothing arrives.
@@ -57,18 +57,18 @@ impl LightCluster {
     pub fn new(center: DVec3, radius: f64, power: f64, cone: Cone, link: u32) -> Self {
         let flags = if cone.two_sided { TWO_SIDED } else { 0 };
         // Rounded down, cosines are those of wider cones.
-        let lower = |angle: f64| (angle.cos() * STEPS).floor();
+        let lower = |angle: f64| (angle.cos() / STEP).floor();
         Self {
             center: center.as_vec3().to_array(),
             radius: radius as f32,
             power: power.max(f64::from(f32::MIN_POSITIVE)) as f32,
-            axis: halves(octahedron::place_of(cone.axis).map(|x| (x * STEPS).round())),
+            axis: halves(octahedron::place_of(cone.axis).map(|x| (x / STEP).round())),
             cosines: halves([lower(cone.spread), lower(cone.reach)]),
             link: link | flags,
         }
     }
 
-    /// As `cluster_seen` in `shaders/shading/light/tree.wgsl`.
+    /// Light that the cluster can send to a point, as `cluster_seen` in `shaders/shading/light/tree.wgsl` finds it.
     fn seen(&self, point: DVec3) -> Seen {
         let away = point - DVec3::from(self.center.map(f64::from));
         let (power, radius) = (f64::from(self.power), f64::from(self.radius));
@@ -89,7 +89,7 @@ impl LightCluster {
             cosine = along * spread + aside * sine_of_spread;
             sine = aside * spread - along * sine_of_spread;
         }
-        // The same from the point of the sphere from where it is least.
+        // The cosine as seen from the point of the sphere where the angle is least.
         let sine_of_sphere = radius / distance;
         let cosine_of_sphere = (1.0 - sine_of_sphere * sine_of_sphere).max(0.0).sqrt();
         cosine = if cosine < cosine_of_sphere { cosine * cosine_of_sphere + sine * sine_of_sphere } else { 1.0 };
@@ -99,7 +99,7 @@ impl LightCluster {
 }
 
 impl LightCluster {
-    /// What it can send at most to a point within `radius` of `center`.
+    /// Most light that the cluster can send to a point within `radius` of `center`.
     pub fn most(&self, center: DVec3, radius: f64) -> f64 {
         let around = Self { radius: self.radius + radius as f32, ..*self };
         let seen = around.seen(center);
@@ -119,7 +119,7 @@ impl LightNode {
             return 0;
         }
         let [a, b] = [first.power * second.squared_distance, second.power * first.squared_distance];
-        let share = if a + b > 0.0 { (a / (a + b)).clamp(LEAST, 1.0 - LEAST) } else { 0.5 };
+        let share = if a + b > 0.0 { (a / (a + b)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE) } else { 0.5 };
         ((u64::from(range) * (share * 4_294_967_296.0) as u64) >> 32) as u32
     }
 }
@@ -130,7 +130,7 @@ fn halves([low, high]: [f64; 2]) -> u32 {
 }
 
 fn numbers(halves: u32) -> [f64; 2] {
-    [halves as u16, (halves >> 16) as u16].map(|half| f64::from(half as i16) / STEPS)
+    [halves as u16, (halves >> 16) as u16].map(|half| f64::from(half as i16) * STEP)
 }
 
 #[cfg(test)]

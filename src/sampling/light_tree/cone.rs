@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec3;
 
-/// What a cluster of lights emits lies within `reach` of directions that lie within `spread` of the axis.
+/// Directions in which a cluster of lights emits: within `reach` of directions that lie within `spread` of
+/// the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
     pub axis: DVec3,

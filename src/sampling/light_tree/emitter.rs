@@ -1,4 +1,4 @@
-//! What a tree of lights knows of one light.
+//! Facts about one light that a tree of lights is built from.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::cone::Cone;
 use crate::scene::{LightParameters, LightStrength, Shape};
 
-/// What is added to the angle up to which a light emits. No rounding then takes a light for one that does not reach a point.
+/// Addition to the angle up to which a light emits: no rounding then takes a light for one that does not
+/// reach a point.
 const MARGIN: f64 = 0.01;
 /// Times at which a moving light is looked at, beside the first.
 const TIMES: u32 = 16;

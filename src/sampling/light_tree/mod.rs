@@ -11,7 +11,7 @@
 //! another light only where the bits lie next to a border. `shaders/shading/light/tree.wgsl` is the device's half.
 
 mod build;
-mod cluster;
+pub mod cluster;
 mod cone;
 mod emitter;
 mod strongest;
@@ -34,16 +34,18 @@ const WHOLE_RANGE: u32 = u32::MAX;
 pub struct LightTree {
     /// The root is the first; children stand behind their parents.
     pub nodes: Vec<LightNode>,
-    /// Of each light inside the scene, which cluster leads to it: a bit for each node from the root on, lowest first.
+    /// The way to each light inside the scene: a bit for each node from the root on, lowest first, that names
+    /// the cluster.
     pub trails: Vec<u32>,
-    /// Of each of them, a sphere around it.
+    /// A sphere around each light inside the scene.
     spheres: Vec<(DVec3, f64)>,
-    /// Of the lights at infinity.
+    /// The table that chooses among lights at infinity.
     pub at_infinity: AliasTable,
 }
 
 impl LightTree {
-    /// Of two lights or more inside the scene, and what chooses among those at infinity, whose probabilities sum to one or are none.
+    /// A tree over two or more lights inside the scene; `at_infinity` chooses among the others, and its
+    /// probabilities sum to one or are none.
     pub fn new(emitters: &[Emitter], at_infinity: AliasTable) -> Self {
         let (nodes, trails) = build::build(emitters);
         let sphere = |emitter: &Emitter| {
@@ -121,7 +123,7 @@ impl LightTree {
     }
 }
 
-/// What part of all random bits a range of them is.
+/// The part of all random bits that a range of them is.
 fn share(range: u32) -> f64 {
     f64::from(range) / 4_294_967_296.0
 }

@@ -14,7 +14,7 @@ struct Candidate {
 }
 
 impl Ord for Candidate {
-    /// Of equal ones, the first in the tree is the greater.
+    /// The first in the tree is the greater of equal ones.
     fn cmp(&self, other: &Self) -> Ordering {
         self.most.total_cmp(&other.most).then_with(|| other.link.cmp(&self.link))
     }
@@ -34,8 +34,8 @@ impl PartialEq for Candidate {
 
 impl Eq for Candidate {}
 
-/// Of the tree with these nodes, lights by what they can send at most to a point within `radius` of `center`, the strongest first: `count` of those that
-/// `is_wanted`.
+/// The `count` strongest lights of the tree with these nodes that are wanted, by the most light that they can
+/// send to a point within `radius` of `center`, the strongest first.
 pub fn strongest(nodes: &[LightNode], (center, radius): (DVec3, f64), count: usize, is_wanted: impl Fn(u32) -> bool) -> Vec<u32> {
     let (mut found, mut open) = (Vec::new(), BinaryHeap::from([Candidate { most: f64::INFINITY, link: 0 }]));
     while let Some(Candidate { link, .. }) = open.pop() {

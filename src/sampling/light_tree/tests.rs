@@ -73,7 +73,8 @@ fn probabilities_sum_to_one_everywhere() {
     }
 }
 
-/// Of bits at random; and one light's share given to another is noticed.
+/// Random bits choose each light as often as its probability says; one light's share given to another is
+/// noticed.
 #[test]
 fn lights_are_chosen_as_often_as_their_probabilities_say() {
     let (tree, draws) = (tree(60), 40_000);
@@ -95,7 +96,7 @@ fn lights_are_chosen_as_often_as_their_probabilities_say() {
     }
 }
 
-/// What a light sends to a point: the cosine at a flat one and the cone of a spot.
+/// Light that reaches a point: the cosine at a flat light and the cone of a spot.
 #[test]
 fn no_light_that_reaches_a_point_is_left_out() {
     let (emitters, tree) = (emitters(400), tree(400));

@@ -5,7 +5,7 @@ mod blend_weight;
 mod kind;
 mod microfacets;
 mod plastic;
-mod principled;
+pub mod principled;
 
 pub use albedo::{
     ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, FACET_KNEE, SHEEN_KNEE, SMALLEST_SHEEN_ROUGHNESS, sheen_distribution, sheen_lambda,
@@ -19,7 +19,7 @@ pub use kind::{
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
-pub use principled::{Attenuation, CoatNormalMap, Principled};
+pub use principled::{Attenuation, CoatNormalMap, FARTHEST, Principled};
 
 use super::texture::{ColorInput, TextureId};
 

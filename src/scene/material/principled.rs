@@ -5,6 +5,18 @@ use glam::DVec3;
 use super::microfacets::Masking;
 use crate::scene::texture::{ColorInput, TextureId};
 
+/// Largest share of the base's samples that the surface's reflection takes: facets that are turned away from the normal let
+/// more through.
+pub const MOST_REFLECTED: f64 = 0.95;
+/// Least share of samples of a reflection that there is: other facets reflect more than one along the normal.
+pub const LEAST_REFLECTED: f64 = 0.02;
+/// Share of all light that white fibres reflect, about.
+pub const SHEEN_WEIGHT: f64 = 0.1;
+/// Reflectance of the coat along its normal: that of a film of refractive index 1.5.
+pub const COAT_REFLECTANCE: f64 = 0.04;
+/// Distance that light goes within a volume at most: where it leaves the scene its distance is infinite.
+pub const FARTHEST: f64 = 1e20;
+
 /// The parameters of glTF 2.0's metallic-roughness material and of its extensions. Scalars are the first channel of their colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Principled {

@@ -50,7 +50,6 @@ impl Renderer for Synthetic {
     fn with_scene(
         self: Box<Self>,
         _scene: &gpt::Scene,
-        _options: &gpt::plan::PlanOptions,
         _change: gpt::renderer::Change,
     ) -> Result<Box<dyn Renderer>, RenderError> {
         Ok(self)

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::placement::Placement;
 use super::primitive::Primitive;
 use crate::emission_map::Unrolled;
-use crate::math::POINT_ERROR;
+use crate::math::{DIRECTION_ERROR, POINT_ERROR, SHADOW_SHORTENING};
 use crate::reference::intersect::element::{Element, area_to_solid_angle};
 use crate::reference::intersect::hierarchy::PreparedRay;
 use crate::reference::intersect::normal_map::Tangents;
@@ -35,10 +35,6 @@ pub struct Cylinder {
     first: DVec3,
     second: DVec3,
 }
-
-/// What shadow rays of devices allow for beside the error of points: errors of directions, and of their length (`shaders/shading/light/light_sample.wgsl`).
-const DIRECTION_ERROR: f64 = 2.5e-7;
-const SHADOW_SHORTENING: f64 = 0.999999;
 
 /// A crossing of a line and the wall: how far along the line, and how high between the ends.
 type Crossing = (f64, f64);

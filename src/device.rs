@@ -1,4 +1,4 @@
-//! Which renderer takes a scene.
+//! The device that renders: chosen, opened, and given a scene.
 
 use crate::cpu::ReferenceRenderer;
 use crate::gpu::{GpuRenderer, OpeningDevice, list_devices};
@@ -6,7 +6,7 @@ use crate::plan::PlanOptions;
 use crate::renderer::{DeviceChoice, RenderError, Renderer};
 use crate::scene::Scene;
 
-/// What is said where `auto` finds no graphics adapter.
+/// The notice where `auto` finds no graphics adapter.
 const NO_ADAPTER_NOTICE: &str = "no Vulkan, Metal or Direct3D 12 adapter was found: rendering on the CPU, which is slower. \
     On Debian and Ubuntu, scripts/install-lavapipe installs Mesa's software Vulkan driver.";
 
@@ -16,14 +16,14 @@ pub struct ChosenRenderer {
     pub notice: Option<String>,
 }
 
-/// The choice of a device while it is being carried out: an adapter opens while the scene is read.
-pub struct Choice {
+/// A chosen device: an adapter opens while the scene is read.
+pub struct ChosenDevice {
     choice: DeviceChoice,
     /// None for the CPU, which needs no adapter.
     opening: Option<OpeningDevice>,
 }
 
-impl Choice {
+impl ChosenDevice {
     /// Begins to open the adapter, if `choice` means one, for plans with these options.
     pub fn begin(choice: &DeviceChoice, options: &PlanOptions) -> Self {
         let opening = (*choice != DeviceChoice::Cpu).then(|| OpeningDevice::begin(choice, options));

@@ -15,7 +15,7 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// How many light samples surfaces take, as [`RenderSettings::several_light_samples`] says it.
+    /// How many light samples surfaces take, as [`crate::scene::RenderSettings::several_light_samples`] says it.
     pub fn about_light_samples([count, depth]: [u32; 2], because: &str) -> Self {
         let choice = match (count, depth) {
             (1, _) => "1".to_owned(),

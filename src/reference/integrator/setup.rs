@@ -1,0 +1,161 @@
+//! An integrator made ready: what it is made of, what may be changed afterwards, and what may be asked of it.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::Integrator;
+use crate::math::luminance;
+use crate::reference::camera::ProjectiveCamera;
+use crate::reference::intersect::{Outline, Owner, PathTime, Ray, World};
+use crate::reference::lights::Lights;
+use crate::reference::volume::Volumes;
+use crate::renderer::RenderError;
+use crate::sampling::light_way::LightWay;
+use crate::sampling::{Guide, LightCells, LitPoint};
+use crate::scene::{ColorInput, Emission, Emitters, LightChoice, RenderSettings, Scene};
+
+impl Integrator {
+    /// Takes positions relative to the scene's [center](Scene::center). Fails on what the reference cannot
+    /// render.
+    pub fn new(scene: &Scene) -> Result<Self, RenderError> {
+        scene.validate()?;
+        let center = scene.center();
+        let scene = &*scene.centered();
+        let world = World::new(scene)?;
+        let lights = Lights::new(scene, &world);
+        let camera = ProjectiveCamera::of(scene);
+        let instances_move = scene.instances.iter().any(|instances| instances.motion.is_some());
+        let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
+        let hides = scene.render.emitters == Emitters::Hidden;
+        let is_bright = |emission: &Emission| emission.radiance != ColorInput::Constant(DVec3::ZERO);
+        let hidden = scene.materials_that(|material| hides && material.emission.as_ref().is_some_and(is_bright));
+        let volumes = Volumes::new(scene);
+        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, volumes, guide: None })
+    }
+
+    /// Draws directions by a guide as well, or by none.
+    pub fn set_guide(&mut self, guide: Option<Arc<Guide>>) {
+        self.guide = guide;
+    }
+
+    pub fn guide(&self) -> Option<&Guide> {
+        self.guide.as_deref()
+    }
+
+    /// Looks at the scene as another frame's camera does; false where the scene is then to be moved
+    /// elsewhere, and nothing has changed.
+    pub fn set_camera(&mut self, scene: &Scene) -> bool {
+        if scene.center() != self.center {
+            return false;
+        }
+        let centered = scene.centered();
+        (self.scene.camera, self.scene.exposure) = (centered.camera.clone(), centered.exposure.clone());
+        self.camera = ProjectiveCamera::of(&self.scene);
+        true
+    }
+
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Where the camera stands, relative to the scene's center, and where it looks.
+    pub fn view_axis(&self) -> [DVec3; 2] {
+        let camera = &self.scene.camera;
+        [camera.position, -camera.frame()[2]]
+    }
+
+    /// What the ray through the middle of a pixel and of the lens meets when the shutter opens.
+    pub fn owner_at_centre(&self, x: u32, y: u32) -> Option<Owner> {
+        let ray = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, DVec2::ZERO, 0.0);
+        let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
+        let mut ray = ray;
+        loop {
+            let hit = self.world.closest(ray, &time)?;
+            let surface = self.world.surface(&ray, &hit, &time);
+            if !self.hidden[surface.owner.material] {
+                return Some(surface.owner);
+            }
+            ray.origin = surface.point.leave_towards(ray.direction);
+        }
+    }
+
+    /// Draws from lights as these settings say; all others stay.
+    pub fn set_light_sampling(&mut self, settings: &RenderSettings) {
+        let own = &mut self.scene.render;
+        own.light_sampling = settings.light_sampling;
+        (own.light_samples, own.light_samples_depth) = (settings.light_samples, settings.light_samples_depth);
+        self.lights.set_sampling(settings.light_sampling);
+    }
+
+    /// Chooses lights in another one of the ways that were made ready; `auto` is power.
+    pub fn set_light_choice(&mut self, choice: LightChoice) {
+        if choice == self.scene.render.light_choice {
+            return;
+        }
+        self.scene.render.light_choice = choice;
+        self.lights.set_way(match choice {
+            LightChoice::Auto | LightChoice::Power => LightWay::Power,
+            LightChoice::Tree => LightWay::Tree,
+            LightChoice::Cells => LightWay::Cells,
+        });
+    }
+
+    /// What lights are chosen from.
+    pub fn lights(&self) -> &Lights {
+        &self.lights
+    }
+
+    /// What was learned of lights that are chosen by cells; None where they are chosen otherwise.
+    pub fn light_cells(&self) -> Option<&Arc<LightCells>> {
+        self.lights.in_cells().filter(|_| self.lights.way() == LightWay::Cells).map(|(choice, _)| &choice.cells)
+    }
+
+    /// Keeps what was learned, where lights may be chosen by cells.
+    pub fn set_light_cells(&mut self, learned: Arc<LightCells>) {
+        self.lights.set_cells(learned);
+    }
+
+    /// What a light brings to a point of a surface when the shutter opens: an estimate by two random numbers
+    /// of the integral of luminance and cosine, without what stands in between and with it. No normal:
+    /// whatever the cosine.
+    pub fn light_reaching(&self, (from, normal): (LitPoint, DVec3), chosen: (usize, f64), numbers: [u32; 2]) -> [f64; 2] {
+        let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
+        let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), from, chosen, numbers) else {
+            return [0.0; 2];
+        };
+        let cosine = if normal == DVec3::ZERO { 1.0 } else { sample.wi.dot(normal) };
+        if cosine <= 0.0 {
+            return [0.0; 2];
+        }
+        let unstopped = self.unstopped(Ray { origin: from.point, direction: sample.wi }, &sample, &time);
+        let free = luminance(sample.radiance) * cosine / sample.pdf;
+        [free, free * unstopped]
+    }
+
+    /// How lights are chosen.
+    pub fn light_way(&self) -> LightWay {
+        self.lights.way()
+    }
+
+    /// Lets paths have so many edges; returns how many they had.
+    pub fn set_max_depth(&mut self, max_depth: u32) -> u32 {
+        std::mem::replace(&mut self.scene.render.max_depth, max_depth)
+    }
+
+    /// Of all surfaces.
+    pub fn primitive_count(&self) -> usize {
+        self.world.indices_in_scene_order().len()
+    }
+
+    /// Of lights that can be drawn from by solid angle as well as by area, what takes most to be drawn so.
+    /// None: there are none.
+    pub fn costliest_outline(&self) -> Option<Outline> {
+        self.lights.costliest_outline(&self.scene, &self.world)
+    }
+
+    /// Changes what stratified random numbers depend on; nothing that was built from the scene does.
+    pub fn set_samples_per_pixel(&mut self, spp: u32) {
+        self.scene.render.spp = spp;
+    }
+}
