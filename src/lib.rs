@@ -81,6 +81,7 @@ pub mod denoise;
 pub mod emission_map;
 mod error;
 mod file_identity;
+mod file_log;
 #[doc(hidden)]
 pub mod film;
 #[doc(hidden)]
@@ -96,8 +97,6 @@ pub mod merge;
 pub mod output;
 #[doc(hidden)]
 pub mod packed;
-#[doc(hidden)]
-pub mod patience;
 mod picture_file;
 #[doc(hidden)]
 pub mod picture_test;

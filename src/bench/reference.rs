@@ -11,8 +11,7 @@ use crate::compare::Moments;
 use crate::compare::relative_weight;
 use crate::film::Band;
 use crate::output::{
-    AtomicFile, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, as_own, read_image,
-    read_picture,
+    AtomicFile, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image, read_picture,
 };
 use crate::scene::{self, Scene};
 
@@ -134,7 +133,7 @@ impl Store {
     pub fn find(&self, scene: &Scene, device: &str, spp: u32) -> Option<Reference> {
         let (made_of, paths) = self.place(scene, device, spp);
         let record: Record = serde_json::from_slice(&std::fs::read(&paths[1]).ok()?).ok()?;
-        let image = as_own(&paths[0], || read_image(&paths[0])).ok()?;
+        let image = read_image(&paths[0]).ok()?;
         let fits = record.made_of == made_of && [image.width, image.height] == scene.film.size;
         fits.then(|| Reference {
             image,

@@ -87,7 +87,6 @@ fn can_start(threads: usize) -> bool {
 /// Parses the program's arguments, does what they say and turns the outcome into the process's exit code.
 pub fn run() -> ExitCode {
     terminal::install_error_style();
-    gpt::output::protect_inputs();
     let (arguments, typed) = match Typed::parse(std::env::args_os()) {
         Ok(parsed) => parsed,
         Err(error) => {

@@ -258,14 +258,14 @@ mod tests {
 
     #[test]
     fn what_was_said_of_the_scene_is_said_to_every_chunk() {
-        let said = ["-D", "spp=4 5", "--camera", "left eye", "--variant=-red", "--assets-root", "a b", "--file-timeout", "9"];
+        let said = ["-D", "spp=4 5", "--camera", "left eye", "--variant=-red", "--assets-root", "a b"];
         let plan =
             ["gpt", "plan", "my room.xml", "--chunks", "2", "--spp", "8", "--strict", "--aov", "albedo,depth", "-o", "a.exr"];
         let (arguments, typed) = Typed::parse(plan.iter().chain(&said).map(OsString::from)).expect("valid arguments");
         let super::super::arguments::Command::Plan(arguments) = arguments.command else { panic!("another command") };
         let words = render_command(&arguments, &typed).words().expect("text");
         assert_eq!(words[..3], ["gpt", "render", "my room.xml"]);
-        for word in ["spp=4 5", "left eye", "--variant=-red", "a b", "9", "--strict", "albedo,depth"] {
+        for word in ["spp=4 5", "left eye", "--variant=-red", "a b", "--strict", "albedo,depth"] {
             assert!(words.iter().any(|one| one == word), "{word} in {words:?}");
         }
         assert!(words.iter().all(|word| !["8", "a.exr", "--chunks"].contains(&word.as_str())), "{words:?}");

@@ -81,7 +81,7 @@ impl PartHeader {
     /// A file that is no part, or whose render broke off.
     pub fn read(path: &Path) -> Result<Self, MergeError> {
         let failure = |what: String| MergeError::Part { path: path.to_owned(), what };
-        let mut file: input::AnyFile = Box::new(input::open(path).map_err(|error| failure(error.to_string()))?);
+        let mut file = input::open_to_decode(path).map_err(|error| failure(error.to_string()))?;
         let headers = open_exr::headers(&mut file).map_err(|what| failure(format!("it {what}")))?;
         let header = &headers[0];
         let has = |name: &str| header.channels.list.iter().any(|channel| channel.name.eq(name));

@@ -119,7 +119,7 @@ fn read_or_say(path: &Path) -> Result<ReadPicture, String> {
 }
 
 fn open(path: &Path) -> Result<AnyFile, String> {
-    Ok(Box::new(input::open(path).map_err(|error| error.to_string())?))
+    input::open_to_decode(path).map_err(|error| error.to_string())
 }
 
 /// Refuses pictures that are larger than any is, before they are decoded.

@@ -38,7 +38,7 @@ pub fn run(arguments: &ConvergenceArguments, plan: &PlanOptions, access: &LoadOp
     if settings > MOST_SETTINGS {
         return Err(Failure::usage(format!("these options make {settings} settings; {MOST_SETTINGS} can be compared at once")));
     }
-    let results = Results::prepare(&arguments.output, "convergence")?;
+    let results = Results::prepare(&arguments.output, "convergence", &access.log)?;
     interrupt::install()?;
     let options = ConvergenceOptions {
         axes,

@@ -3,14 +3,15 @@
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-use gpt::output::{AtomicFile, OutputError, check_target};
+use gpt::load::FileLog;
+use gpt::output::{AtomicFile, OutputError};
 use gpt::renderer::Observer;
 use serde::Serialize;
 
 use super::arguments::OutputArguments;
 use crate::cli::exit::Failure;
 use crate::cli::shell::quoted;
-use crate::cli::{interrupt, terminal};
+use crate::cli::{interrupt, outputs, terminal};
 
 /// An observer that shows nothing, since renders are many and short, and passes on Ctrl-C.
 pub struct OnlyStops;
@@ -36,10 +37,12 @@ impl Results {
     ///
     /// # Errors
     /// What the file system says.
-    pub fn prepare(arguments: &OutputArguments, bench: &'static str) -> Result<Self, Failure> {
+    pub fn prepare(arguments: &OutputArguments, bench: &'static str, read: &FileLog) -> Result<Self, Failure> {
         let folder = arguments.output.clone().unwrap_or_else(|| Path::new("gpt-bench").join(bench));
         std::fs::create_dir_all(&folder).map_err(|source| OutputError::Write { path: folder.clone(), source })?;
-        files(&folder, bench).iter().try_for_each(|path| check_target(path))?;
+        let files = files(&folder, bench);
+        outputs::check(files.iter().map(PathBuf::as_path), None)?;
+        outputs::check_unread(files.iter().map(PathBuf::as_path), read)?;
         Ok(Self { folder, bench, quiet: arguments.quiet, last: RefCell::default() })
     }
 

@@ -9,9 +9,7 @@ use gpt::denoise::bias::Bias;
 use gpt::denoise::library::{Library, OidnError};
 use gpt::denoise::{Raw, denoise};
 use gpt::film::Band;
-use gpt::output::{
-    Channels, Display, Image, OutputError, PartSpec, PictureFile, PictureFormat, PictureSpec, as_own, read_picture,
-};
+use gpt::output::{Channels, Display, Image, OutputError, PartSpec, PictureFile, PictureFormat, PictureSpec, read_picture};
 use serde::Serialize;
 
 pub use arguments::DenoiseArguments;
@@ -136,7 +134,7 @@ pub fn denoise_render(
     let raw = raw_output(outputs)?;
     let beside = beside(outputs);
     // The next render of the same scene writes it again.
-    let picture = as_own(raw, || read_raw(raw))?;
+    let picture = read_raw(raw)?;
     let done = denoise_into(library, &picture, &beside, display)?;
     if !quiet {
         terminal::note(&done.sentence(&beside));

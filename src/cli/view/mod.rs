@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 
 use gpt::Observer;
 use gpt::film::Band;
-use gpt::load;
+use gpt::load::FileLog;
 use gpt::output::{Display, LayerChannel};
 
 pub use arguments::ViewArguments;
@@ -41,6 +41,8 @@ pub struct Live {
     tev: Option<tev::Sender>,
     /// A file of the scene has changed.
     changed: Option<Arc<AtomicBool>>,
+    /// The files that were read for the scene.
+    files: FileLog,
 }
 
 impl Live {
@@ -49,7 +51,7 @@ impl Live {
     /// # Errors
     /// No server, or no tev at that address.
     pub fn start(arguments: &ViewArguments, display: &Display) -> Result<Self, Failure> {
-        let mut live = Self { board: None, url: None, tev: None, changed: None };
+        let mut live = Self { board: None, url: None, tev: None, changed: None, files: FileLog::default() };
         if !arguments.view && arguments.tev.is_none() {
             return Ok(live);
         }
@@ -67,8 +69,8 @@ impl Live {
         }
         if arguments.watch {
             let changed = Arc::new(AtomicBool::new(false));
-            let flag = changed.clone();
-            let watch = move || watch_files(&flag);
+            let (flag, files) = (changed.clone(), live.files.clone());
+            let watch = move || watch_files(&flag, &files);
             thread::Builder::new()
                 .name("watch".to_owned())
                 .spawn(watch)
@@ -84,6 +86,11 @@ impl Live {
         self.board.is_some()
     }
 
+    /// The list of the files that were read for the scene.
+    pub fn files(&self) -> &FileLog {
+        &self.files
+    }
+
     /// A scene of this name is about to be rendered.
     pub fn begin(&self, scene: &str) {
         if let Some(board) = &self.board {
@@ -95,7 +102,7 @@ impl Live {
     pub fn accept_changes(&self) {
         if let Some(changed) = &self.changed {
             changed.store(false, Ordering::SeqCst);
-            load::accept_changes();
+            self.files.accept_changes();
         }
     }
 
@@ -156,10 +163,10 @@ impl Live {
 }
 
 /// Looks at the files of the scene until the program ends.
-fn watch_files(changed: &AtomicBool) {
+fn watch_files(changed: &AtomicBool, files: &FileLog) {
     loop {
         thread::sleep(LOOK_INTERVAL);
-        if !changed.load(Ordering::SeqCst) && !load::changed_files().is_empty() {
+        if !changed.load(Ordering::SeqCst) && !files.changed().is_empty() {
             thread::sleep(SETTLING);
             changed.store(true, Ordering::SeqCst);
         }

@@ -10,7 +10,6 @@ use sha2::{Digest, Sha256};
 
 use crate::input::{self, InputFile};
 use crate::output::{AtomicFile, OutputError};
-use crate::patience::Watched;
 
 const MAGIC: &[u8; 16] = b"gpt checkpoint\n\0";
 pub const DIGEST_BYTES: usize = 32;
@@ -33,7 +32,7 @@ pub fn write<H: Serialize>(path: &Path, content: &H, arrays: &[&[u8]]) -> Result
     let header = Header { content, arrays: arrays.iter().map(|array| array.len() as u64).collect() };
     let header = serde_json::to_vec(&header).map_err(|error| failure(error.into()))?;
     let file = AtomicFile::create(path)?;
-    let mut writer = Hashing { hash: Sha256::new(), inner: BufWriter::with_capacity(1 << 18, Watched(file.handle()?)) };
+    let mut writer = Hashing { hash: Sha256::new(), inner: BufWriter::with_capacity(1 << 18, file.handle()?) };
     let written = (|| {
         writer.write_all(MAGIC)?;
         writer.write_all(&(header.len() as u64).to_le_bytes())?;
@@ -75,12 +74,12 @@ pub const DAMAGED: &str = "it is damaged";
 /// # Errors
 /// A file that cannot be read, or that is not what was written, in words.
 pub fn read<H: DeserializeOwned>(path: &Path) -> Result<Option<Content<H>>, String> {
-    let mut file = match input::open_own(path) {
+    let mut file = match input::open(path) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(error.to_string()),
     };
-    let length = file.length();
+    let length = input::length(&file).map_err(|error| error.to_string())?;
     let mut hash = Sha256::new();
     let mut take = |bytes: u64| {
         // No more is made room for than the file has.

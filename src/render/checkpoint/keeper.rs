@@ -13,7 +13,6 @@ use super::saved::{Refusal, Saved, StepsState};
 use crate::choice::Choice;
 use crate::film::{Band, KernelLayer};
 use crate::output::{OutputError, check_target};
-use crate::patience;
 use crate::renderer::state::BatchState;
 
 /// Time between two states, where nothing else is asked for.
@@ -203,16 +202,15 @@ impl Checkpoint {
 
     /// Waits for the state that is being written.
     fn wait(&mut self) {
-        match self.writer.take().map(patience::join) {
+        match self.writer.take().map(JoinHandle::join) {
             None => {}
-            Some(Err(source)) => self.failures.push(OutputError::Write { path: self.path.clone(), source }),
-            Some(Ok(Ok(Ok(())))) => {
+            Some(Ok(Ok(()))) => {
                 self.is_there = true;
                 // What went wrong before is made good.
                 self.failures.clear();
             }
-            Some(Ok(Ok(Err(failure)))) => self.failures.push(failure),
-            Some(Ok(Err(_))) => {
+            Some(Ok(Err(failure))) => self.failures.push(failure),
+            Some(Err(_)) => {
                 self.failures.push(OutputError::Encode { path: self.path.clone(), what: "its writer panicked".to_owned() });
             }
         }

@@ -9,7 +9,6 @@ use sha2::{Digest, Sha256};
 
 use super::file::{DAMAGED, DIGEST_BYTES};
 use crate::film::Band;
-use crate::patience;
 
 /// Between the checkpoint's name and what tells its files of rows apart.
 const INFIX: &str = "-rows-";
@@ -66,16 +65,14 @@ impl RowsFile {
         bytes.extend_from_slice(bytemuck::cast_slice(&band.second_moment));
         let digest = Sha256::digest(&bytes);
         bytes.extend_from_slice(&digest);
-        let (mut file, length) = (self.file.try_clone()?, bytes.len() as u64);
-        patience::within(move || file.write_all(&bytes))?;
-        self.bytes += length;
+        self.file.write_all(&bytes)?;
+        self.bytes += bytes.len() as u64;
         Ok(())
     }
 
     /// Its name, and its length once all of it is sure to stay.
     pub fn flushed(&self) -> io::Result<(String, u64)> {
-        let file = self.file.try_clone()?;
-        patience::within(move || file.sync_data())?;
+        self.file.sync_data()?;
         Ok((self.name.clone(), self.bytes))
     }
 
