@@ -54,7 +54,7 @@ pub fn run(ready: Ready, live: Live, mut started: Instant, render: &Rendering<'_
                     return Err(failure);
                 }
                 live.end(Phase::Failed, &failure.to_string(), &[]);
-                terminal::print_error(failure.into());
+                terminal::print_error(&failure);
                 last = exit;
             }
         }
