@@ -1,5 +1,5 @@
 //! Damaged scenes of other programs, and damaged meshes that they name: each is read or refused, soon, and within a bound of memory. The long form
-//! (`scripts/test --all`) makes 100,000 of each kind, and `GPT_FUZZ_CASES` says how many otherwise.
+//! (`scripts/test --full`) makes 100,000 of each kind, and `GPT_FUZZ_CASES` says how many otherwise.
 
 use std::io::Write as _;
 

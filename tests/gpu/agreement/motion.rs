@@ -146,10 +146,8 @@ fn ways() -> [PlanOptions; 2] {
 }
 
 #[test]
+#[ignore = "long: each moving shape alone"]
 fn every_moving_shape_agrees() {
-    if !in_full("each moving shape alone") {
-        return;
-    }
     for (index, (name, shape)) in MOVING.iter().enumerate() {
         assert_agrees(name, &stage(&[shape]), &ways()[index % 2]);
     }
