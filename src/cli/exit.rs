@@ -11,7 +11,7 @@ use gpt::output::{OutputError, ReadError};
 use gpt::render::checkpoint::CheckpointError;
 use gpt::renderer::RenderError;
 
-/// What a run came to; other programs rely on the numbers.
+/// The outcome of a run; other programs rely on the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
     Done = 0,
@@ -27,7 +27,7 @@ pub enum Exit {
     NonFinite = 6,
     /// `compare`, `test` or `verify` found a difference.
     Difference = 7,
-    /// What was rendered is saved.
+    /// The run was interrupted, and its samples are saved.
     Interrupted = 130,
 }
 

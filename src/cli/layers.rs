@@ -29,7 +29,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// What they come to.
+    /// The channels of all layers.
     pub fn channels(&self) -> &[LayerChannel] {
         &self.channels
     }

@@ -78,7 +78,7 @@ fn can_start(threads: usize) -> bool {
     let can = started.len() == threads;
     for thread in started {
         thread.thread().unpark();
-        // It does nothing that could panic.
+        // The thread does nothing that could panic.
         let _ = thread.join();
     }
     can

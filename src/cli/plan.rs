@@ -46,7 +46,7 @@ struct Chunk {
     spp: u32,
     output: String,
     command: Vec<String>,
-    /// The same for a shell.
+    /// The command as a line for a shell.
     shell: String,
     device_bytes: u64,
     /// The host's memory with a state, within a factor of two.
@@ -63,7 +63,7 @@ struct Merge {
     host_bytes: u64,
 }
 
-/// What exit codes of chunks mean for a scheduler.
+/// The meaning of a chunk's exit codes for a scheduler.
 #[derive(Serialize)]
 struct ExitCodes {
     done: [u8; 1],
@@ -140,7 +140,7 @@ fn plan_frames((arguments, typed): (&PlanArguments, &Typed), scene: &Scene, fram
     Ok(Exit::Done)
 }
 
-/// What a chunk's render takes of the host's memory.
+/// Memory of the host that a chunk's render takes.
 fn host_bytes(scene: &Scene) -> u64 {
     let pixels = scene.film.size.map(u64::from).iter().product();
     host_memory(scene, &HostNeeds { pixels, checkpoint: true, ..HostNeeds::default() }).total()

@@ -232,7 +232,8 @@ fn check_inputs(outputs: &[(PathBuf, PictureFormat)], arguments: &RenderArgument
     outputs::check_unread(outputs.iter().chain(&others).map(PathBuf::as_path), read)
 }
 
-/// What is told before it is taken: 32 bytes a pixel of the rows that the film has at a time, and all that the host needs.
+/// Memory that is reported before it is taken: 32 bytes a pixel of the rows that the film has at a time, and
+/// all that the host needs.
 fn needs(arguments: &RenderArguments, scene: &Scene, options: &RenderOptions) -> Needs {
     let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     let film = scene.film.size.map(u64::from).iter().product::<u64>();
@@ -358,7 +359,7 @@ fn render(
     }
 }
 
-/// Where the picture stands in the whole, if it is a part of one.
+/// The place of the picture in the whole, if it is a part of one.
 fn part(arguments: &RenderArguments, film: [u32; 2]) -> Option<PartSpec> {
     let origin = arguments.estimate.crop.map_or([0, 0], |[x, y, ..]| [x, y]);
     arguments.estimate.is_part().then_some(PartSpec { film, origin })

@@ -50,7 +50,7 @@ pub fn answer(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// As [`answer`], with a value as indented JSON.
+/// Writes a value as [`answer`] does, as indented JSON.
 ///
 /// # Errors
 /// As [`answer`].

@@ -11,7 +11,7 @@ use super::sequence::Ready;
 use super::view::{Live, Phase};
 use super::{interrupt, terminal};
 
-/// Where a scene is to be watched there is a file that can change.
+/// Checks that there is a file that can change, if the scene is to be watched.
 ///
 /// # Errors
 /// A usage error.

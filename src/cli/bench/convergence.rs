@@ -23,7 +23,7 @@ const MOST_SETTINGS: usize = 32;
 /// Longer side of the picture where no size is given.
 const DEFAULT_SIDE: u32 = 128;
 
-/// What the JSON file holds.
+/// The content of the JSON file.
 #[derive(Serialize)]
 struct File<'a> {
     machine: &'a Machine,

@@ -14,7 +14,7 @@ use super::output::{OnlyStops, Results, command};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{interrupt, terminal};
 
-/// What the JSON file holds.
+/// The content of the JSON file.
 #[derive(Serialize)]
 struct File<'a> {
     machine: &'a Machine,

@@ -1,4 +1,4 @@
-//! Where results go, and what is told on the way.
+//! The files of a bench's results, and its messages meanwhile.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ pub struct Results {
     folder: PathBuf,
     bench: &'static str,
     quiet: bool,
-    /// What was said last.
+    /// The last message.
     last: RefCell<String>,
 }
 
@@ -73,7 +73,7 @@ fn files(folder: &Path, bench: &str) -> [PathBuf; 3] {
     [format!("{bench}.json"), format!("{bench}.csv"), "report.html".to_owned()].map(|name| folder.join(name))
 }
 
-/// What was typed.
+/// The command line as it was typed.
 pub fn command() -> String {
     let arguments = std::env::args_os().skip(1).map(|argument| quoted(&argument.to_string_lossy()));
     std::iter::once("gpt".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")

@@ -22,7 +22,7 @@ use super::terminal;
 pub const DENOISER_KEY: &str = "gpt:denoiser";
 pub const BIAS_KEY: &str = "gpt:denoiserBias";
 
-/// What `--json` prints. Its keys stay as they are; new ones may be added.
+/// The JSON that `--json` prints. Its keys stay as they are; new ones may be added.
 #[derive(Serialize)]
 struct Report<'a> {
     denoiser: &'a str,
@@ -52,7 +52,7 @@ pub fn run(arguments: &DenoiseArguments) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// What denoising came to.
+/// The outcome of denoising.
 struct Denoised {
     denoiser: String,
     layers: &'static str,
@@ -60,7 +60,7 @@ struct Denoised {
 }
 
 impl Denoised {
-    /// As people read it.
+    /// The outcome in a sentence for people.
     fn sentence(&self, outputs: &[(PathBuf, PictureFormat)]) -> String {
         let files: Vec<String> = outputs.iter().map(|(path, _)| path.display().to_string()).collect();
         format!("{}: by {}, layers: {}; {}", files.join(", "), self.denoiser, self.layers, self.bias)

@@ -31,7 +31,7 @@ fn check_reports(arguments: &TestArguments, jobs: &[folder::Job]) -> Result<(), 
 /// The page that is written where nobody asked for one and something differs.
 const DEFAULT_PAGE: &str = "gpt-test.html";
 
-/// What `--json` prints. Its keys stay as they are; new ones may be added.
+/// The JSON that `--json` prints. Its keys stay as they are; new ones may be added.
 #[derive(Serialize)]
 struct Report<'a> {
     folder: String,

@@ -149,7 +149,7 @@ fn make_golden(job: &Job, settings: &TestSettings, maker: &mut Maker, report: &m
     Ok(())
 }
 
-/// What a person should know of a test that cannot find what it is to find.
+/// The reasons why a test finds less than it should.
 fn shortcomings(found: f64, settings: &TestSettings, non_finite_samples: u64) -> Option<String> {
     let mut sentences = Vec::new();
     if found > settings.change {
@@ -205,7 +205,7 @@ fn render_and_judge(
     Ok(differs)
 }
 
-/// Whether ꟻLIP is above the limit that was given; then the report says so.
+/// True if ꟻLIP is above the limit that was given; the report then says so.
 fn looks_different(arguments: &TestArguments, report: &mut SceneReport) -> bool {
     let (Some(limit), Some(flip)) = (arguments.flip, report.flip) else { return false };
     if flip > limit {

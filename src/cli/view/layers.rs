@@ -10,7 +10,7 @@ pub struct LayerImage {
     pub name: String,
     pub width: u32,
     pub height: u32,
-    /// Where each of the three numbers comes from; a layer of one number has it three times.
+    /// The channel of each of the three numbers; a layer of one number has it three times.
     places: [usize; 3],
     picture: Arc<LayerPicture>,
 }

@@ -34,7 +34,7 @@ const LOOK_INTERVAL: Duration = Duration::from_millis(100);
 /// A program that writes a file is given so long to end it.
 const SETTLING: Duration = Duration::from_millis(40);
 
-/// Where a render is shown; nowhere, if nobody asked for it.
+/// The places where a render is shown; none, if nobody asked for one.
 pub struct Live {
     board: Option<Arc<Board>>,
     url: Option<String>,
@@ -81,7 +81,7 @@ impl Live {
         Ok(live)
     }
 
-    /// Whether it is shown anywhere.
+    /// True if it is shown anywhere.
     pub fn is_shown(&self) -> bool {
         self.board.is_some()
     }
@@ -106,12 +106,12 @@ impl Live {
         }
     }
 
-    /// Whether the render is to begin again.
+    /// True if the render is to begin again.
     pub fn restarts(&self) -> bool {
         self.changed.as_ref().is_some_and(|changed| changed.load(Ordering::SeqCst)) && !interrupt::requested()
     }
 
-    /// It is rendered on this device.
+    /// Notes the device that renders.
     pub fn on_device(&self, device: &str) {
         if let Some(board) = &self.board {
             board.on_device(device);
@@ -185,12 +185,12 @@ pub struct Watching<'a> {
 }
 
 impl Watching<'_> {
-    /// As it is, but for the rows: of a layer, they are none of the picture.
+    /// An observer without the rows: those of a layer do not belong to the picture.
     pub fn without_rows(&self) -> Self {
         Self { shows_rows: false, asked: Mutex::new(None), ..*self }
     }
 
-    /// As it is, but for the progress: of samples that are rendered again, nobody is told.
+    /// An observer without the progress: samples that are rendered again do not count.
     pub fn in_advance(&self) -> Self {
         Self { tells_progress: false, asked: Mutex::new(None), ..*self }
     }

@@ -203,7 +203,7 @@ fn converse(connection: &TcpStream, stranger: Stranger, (door, board, open): (&D
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
-/// What the page is told.
+/// The state that the page gets.
 #[derive(Serialize)]
 struct State<'a> {
     version: u64,
