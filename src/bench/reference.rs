@@ -29,7 +29,7 @@ pub struct OwnError {
     pub relmse_standard_error: f64,
 }
 
-/// What errors are measured against.
+/// A reference that errors are measured against.
 #[derive(Debug, Clone)]
 pub struct Reference {
     pub image: Image,
@@ -37,7 +37,7 @@ pub struct Reference {
     pub own_error: Option<OwnError>,
     /// Samples per pixel, where they are known.
     pub spp: Option<u32>,
-    /// Where it comes from, for people.
+    /// Its origin, for people.
     pub origin: String,
     /// Properties of its pixels that its file states and nothing uses.
     pub warnings: Vec<String>,
@@ -85,7 +85,7 @@ impl Reference {
         Ok(Self { image, own_error, spp: Some(part_spp * PARTS), origin: "rendered".to_owned(), warnings: Vec::new() })
     }
 
-    /// What to subtract from a measured error, and how well that is known: zeros where nothing is known.
+    /// The part to subtract from a measured error, and its uncertainty: zeros where nothing is known.
     pub fn correction(&self) -> OwnError {
         self.own_error.unwrap_or_default()
     }
@@ -114,7 +114,7 @@ pub struct Store {
     pub folder: PathBuf,
 }
 
-/// What lies beside a stored picture.
+/// The record beside a stored picture.
 #[derive(Serialize, Deserialize)]
 struct Record {
     /// Everything that decides the picture, in words.
@@ -159,7 +159,7 @@ impl Store {
         Ok(picture)
     }
 
-    /// What decides the picture, and where it and its record lie.
+    /// The text of all that decides the picture, and the places of it and its record.
     fn place(&self, scene: &Scene, device: &str, spp: u32) -> (String, [PathBuf; 2]) {
         let made_of = format!(
             "{} {:?} {:?} {PARTS} parts of {} {device} {}",

@@ -27,7 +27,7 @@ struct LayerPixel {
 }
 
 impl LayerSums {
-    /// Of a picture of so many pixels with the layers that this part has.
+    /// The layers of a picture of so many pixels, as this part has them.
     pub fn new(part: &PartHeader, pixels: usize) -> Self {
         Self {
             layers: part.layers.clone(),

@@ -79,7 +79,7 @@ impl Channels {
         self.values.keys().map(String::as_str)
     }
 
-    /// What the header says under this key.
+    /// The text or number that the header has under this key.
     pub fn attribute(&self, key: &str) -> Option<&str> {
         self.attributes.get(key).map(String::as_str)
     }

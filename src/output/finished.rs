@@ -1,4 +1,4 @@
-//! Whether a file is a finished picture of a certain render.
+//! Tells whether a file is a finished picture of a certain render.
 
 use std::io::Read;
 use std::path::Path;
@@ -79,7 +79,7 @@ fn png_agrees(path: &Path, spec: &PictureSpec) -> bool {
     is_of(&found, spec)
 }
 
-/// Whether the line that previews carry is that of this render, whatever the device.
+/// True if the line that previews carry is that of this render, whatever the device.
 fn is_of(found: &str, spec: &PictureSpec) -> bool {
     let without_device = |text: &str| {
         let words = text.split("; ").filter(|word| !["device=", "scene="].iter().any(|key| word.contains(key)));
@@ -88,7 +88,8 @@ fn is_of(found: &str, spec: &PictureSpec) -> bool {
     without_device(found) == without_device(&software(spec))
 }
 
-/// Of files that have that line near their beginning: a comment of a JPEG, or an entry of a Radiance header.
+/// Compares files that have that line near their beginning: a comment of a JPEG, or an entry of a Radiance
+/// header.
 fn text_agrees(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
     let mut start = Vec::new();
     let Ok(file) = input::open(path) else { return false };

@@ -63,12 +63,12 @@ pub struct LayerChannel {
     pub source: LayerSource,
 }
 
-/// Where a channel's numbers come from.
+/// The source of a channel's numbers.
 #[derive(Debug, Clone)]
 pub enum LayerSource {
     /// One of a layer's three numbers.
     Component(Arc<LayerPicture>, usize),
-    /// The same, a whole number.
+    /// One of a layer's three numbers, which is a whole number.
     Whole(Arc<LayerPicture>, usize),
     /// The variance of a sample, from the mean of its square and the picture itself.
     Variance(Arc<LayerPicture>, usize),
@@ -106,7 +106,8 @@ impl LayerChannel {
         }
     }
 
-    /// What a part has besides, so that it can be joined with others: means, what rounding to them lost, and how many samples they are over.
+    /// The channels that a part needs to be joined with others: means, their rounding errors, and how many
+    /// samples they are over.
     pub fn of_part(kernel: KernelLayer, [means, remainders, counts]: [&Arc<LayerPicture>; 3]) -> Vec<Self> {
         let channels = kernel.part_channels();
         let of_picture = |names: &[&'static str], picture: &Arc<LayerPicture>| -> Vec<Self> {

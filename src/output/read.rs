@@ -23,7 +23,7 @@ pub fn cut<T: Copy>(pixels: &[T], width: u32, [column, row, columns, rows]: [u32
     rows.flat_map(|pixels| &pixels[column as usize..(column + columns) as usize]).copied().collect()
 }
 
-/// What the numbers of a picture file are.
+/// The meaning of the numbers in a picture file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PictureKind {
     /// Floating-point numbers, linear: EXR, Radiance HDR.

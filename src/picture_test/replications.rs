@@ -8,7 +8,7 @@ use crate::output::Image;
 use crate::renderer::{Batch, Observer, RenderRequest, Renderer};
 use crate::sampling::hash::mix;
 
-/// What a render is for; renders for different ends share no random numbers.
+/// The purpose of a render; renders for different purposes share no random numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
     /// A part of a golden picture.

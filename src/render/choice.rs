@@ -6,7 +6,7 @@ use crate::reference::ReferenceRenderer;
 use crate::renderer::{DeviceChoice, RenderError, Renderer};
 use crate::scene::Scene;
 
-/// What is said where `auto` finds no graphics adapter.
+/// The notice where `auto` finds no graphics adapter.
 const NO_ADAPTER_NOTICE: &str = "no Vulkan, Metal or Direct3D 12 adapter was found: rendering on the CPU, which is slower. \
     On Debian and Ubuntu, scripts/install-lavapipe installs Mesa's software Vulkan driver.";
 

@@ -58,7 +58,8 @@ impl Renderer {
         Choice::begin(&options.device, &options.plan_options())
     }
 
-    /// As [`Renderer::new`], with a choice that began with these options and a scene to which they are applied.
+    /// Does the work of [`Renderer::new`] with a choice that began with these options and a scene to which
+    /// they are applied.
     ///
     /// # Errors
     /// As [`Renderer::new`].
@@ -118,13 +119,14 @@ impl Renderer {
         &self.bulk
     }
 
-    /// What the headers of pictures of the scene say that are rendered with these options on a device of this name.
+    /// The header entries of pictures that are rendered of the scene with these options on a device of this
+    /// name.
     #[doc(hidden)]
     pub fn provenance_of(scene: &Scene, options: &RenderOptions, device: &str) -> Provenance {
         Self::provenance_with(&BulkDigest::of(scene), scene, options, device)
     }
 
-    /// The same, with what was hashed of the scene's meshes and pictures before.
+    /// The provenance, computed with a digest of the scene's meshes and pictures that is known already.
     #[doc(hidden)]
     pub fn provenance_with(bulk: &BulkDigest, scene: &Scene, options: &RenderOptions, device: &str) -> Provenance {
         Provenance {
@@ -175,7 +177,8 @@ impl Renderer {
         Ok(Image::rendered(self.size, &bands, self.provenance.clone(), outcome))
     }
 
-    /// As [`Renderer::render`], with a time limit that counts from `start`, and kept in a checkpoint: what earlier renders took counts too.
+    /// Renders as [`Renderer::render`] does, with a time limit that counts from `start`, and saves its state
+    /// in a checkpoint; the time of earlier renders counts too.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -228,14 +231,14 @@ impl Renderer {
         progressive::render_kept(renderer, self.film, seed, goal, observer, checkpoint, &mut cropped)
     }
 
-    /// What the options ask for; a deadline is some time.
+    /// The goal that the options set; a deadline is some time.
     fn goal(&self) -> Goal {
         let RenderOptions { first_sample, time_limit, target_error, adaptive, .. } = self.options;
         let samples = first_sample..first_sample + self.provenance.settings.spp;
         Goal { samples, region: self.options.crop, deadline: time_limit.map(|_| Instant::now()), target_error, adaptive }
     }
 
-    /// What decides the picture, and from what state a render of it can go on.
+    /// The values that decide the picture, and that a state must share so that a render can go on from it.
     #[doc(hidden)]
     pub fn identity(&self) -> Identity {
         let is_one_batch = progressive::is_one_batch(&self.goal(), self.renderer.holds_whole_film());
@@ -248,7 +251,7 @@ impl Renderer {
         self.film
     }
 
-    /// What the headers of the picture's files say.
+    /// The header entries of the picture's files.
     #[doc(hidden)]
     pub fn provenance(&self) -> &Provenance {
         &self.provenance

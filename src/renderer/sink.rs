@@ -1,4 +1,4 @@
-//! Where what a renderer finishes goes.
+//! The receivers of finished bands and of states.
 
 use std::io;
 
@@ -13,12 +13,12 @@ pub trait Sink {
     /// The render cannot go on, because nobody takes what it finishes.
     fn band(&mut self, band: Band) -> io::Result<()>;
 
-    /// Whether it takes states. If not, renderers need not be able to give one.
+    /// True if it takes states. If not, renderers need not be able to give one.
     fn takes_states(&self) -> bool {
         false
     }
 
-    /// Whether it is time for the next state.
+    /// True if it is time for the next state.
     fn wants_state(&self) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! What is left behind when two renderings differ: both pictures, their difference, and a heat map.
+//! The evidence of two renderings that differ: both pictures, their difference, and a heat map.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -26,7 +26,7 @@ pub struct CodedFile {
     color_space: Option<ColorSpace>,
     /// The file's colours where they are not sRGB.
     profile: Option<Box<moxcms::ColorProfile>>,
-    /// It says itself that its integers are linear.
+    /// True if the file says that its integers are linear.
     is_linear: bool,
     notes: Vec<String>,
 }

@@ -49,7 +49,7 @@ impl RadianceFile {
         self.header.matrix.is_none() && self.header.resolution.is_usual()
     }
 
-    /// It says from where it was seen.
+    /// True if the header states a view.
     pub fn has_view(&self) -> bool {
         self.header.has_view
     }

@@ -46,7 +46,7 @@ pub fn write<H: Serialize>(path: &Path, content: &H, arrays: &[&[u8]]) -> Result
     file.commit()
 }
 
-/// What a checkpoint holds.
+/// The content of a checkpoint.
 pub struct Content<H> {
     pub header: H,
     arrays: std::vec::IntoIter<Vec<u8>>,
@@ -66,7 +66,7 @@ impl<H> Content<H> {
     }
 }
 
-/// What is said of files that are not what was written.
+/// The message for files that are not what was written.
 pub const DAMAGED: &str = "it is damaged";
 
 /// Reads a checkpoint; None where there is none.

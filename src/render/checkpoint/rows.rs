@@ -27,7 +27,7 @@ impl RowsFile {
         let name = format!("{}{INFIX}{}-{}", name_of(checkpoint), std::process::id(), now.as_nanos());
         let mut options = OpenOptions::new();
         let file = options.read(true).write(true).create_new(true).open(checkpoint.with_file_name(&name))?;
-        // Where a file system has no locks, nobody removes the file.
+        // A file system without locks refuses, and then nobody removes the file.
         let _ = file.try_lock();
         Ok(Self { name, file, bytes: 0 })
     }
@@ -131,7 +131,7 @@ pub fn remove_all(checkpoint: &Path) {
     let ours = entries.flatten().filter(|entry| entry.file_name().to_str().is_some_and(|name| is_of(checkpoint, name)));
     for path in ours.map(|entry| entry.path()).collect::<Vec<PathBuf>>() {
         if File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
-            // What cannot be removed stays.
+            // A file that cannot be removed stays.
             let _ = fs::remove_file(path);
         }
     }
