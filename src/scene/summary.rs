@@ -14,7 +14,7 @@ use super::shape::{Geometry, Shape};
 use super::texture::TextureKind;
 use crate::choice::Choice;
 
-/// What a scene consists of. Maps go from the scene file's name of a type to how often it occurs.
+/// The contents of a scene. Maps go from the scene file's name of a type to how often it occurs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SceneSummary {
     pub name: String,

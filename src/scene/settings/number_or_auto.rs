@@ -8,7 +8,7 @@ use crate::choice::Named;
 /// A number that a setting states, or that a pilot of some thousand paths finds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NumberOrAuto {
-    /// What a pilot finds best.
+    /// The number that a pilot finds best.
     Auto,
     /// So many.
     Number(u32),

@@ -17,7 +17,7 @@ pub enum Value {
     Name(&'static str),
 }
 
-/// As people write it, without quotes.
+/// The form in which people write it, without quotes.
 impl fmt::Display for Value {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -109,7 +109,7 @@ impl Values {
         }
     }
 
-    /// Whether the value is one of these.
+    /// Checks that the value is one of these.
     ///
     /// # Errors
     /// What would be right, to follow "expected".
@@ -123,7 +123,7 @@ impl Values {
     }
 }
 
-/// What is expected, in words. The largest number is left out where nobody comes near it.
+/// The expected values, in words. The largest number is left out where nobody comes near it.
 impl fmt::Display for Values {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -150,11 +150,11 @@ pub struct BadSetting {
     /// The scene file's key.
     pub setting: &'static str,
     pub message: String,
-    /// What would be right, where the message does not say.
+    /// Advice, where the message has none.
     pub help: Option<String>,
 }
 
-/// What a setting's field may be: it becomes a [`Value`] and is made from one.
+/// A type of a setting's field: it becomes a [`Value`] and is made from one.
 pub trait Field: Copy {
     fn to_value(self) -> Value;
     /// None for a value of the other kind, and for a name that does not exist.
