@@ -1,4 +1,4 @@
-//! What `action.yml`, `docs/ci.md` and the `Dockerfile` tell other systems to do, done as it stands there.
+//! The commands that `action.yml` and `docs/ci.md` give to other systems, run as they stand there.
 
 use super::*;
 

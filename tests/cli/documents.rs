@@ -9,7 +9,7 @@ use super::text;
 
 /// Folders whose files documents name by path.
 const FOLDERS: [&str; 9] = ["src/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
-/// What was, not what is: only their links are checked.
+/// Documents about the past: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
 /// Flags of cargo and of openjd that documents use.
 const FLAGS_OF_OTHERS: [&str; 10] = [
@@ -45,7 +45,7 @@ impl Help {
         Self(flags)
     }
 
-    /// What is wrong with a command line that begins after `gpt`.
+    /// The mistakes of a command line that begins after `gpt`.
     fn check(&self, words: &[&str]) -> Vec<String> {
         let mut command = String::new();
         for word in words {
@@ -108,7 +108,7 @@ impl Document {
         self.prose.split("](").skip(1).filter_map(|rest| rest.split(')').next()).filter(|link| !link.contains("://"))
     }
 
-    /// What links end in, as GitHub makes it of the headings.
+    /// The anchors that GitHub makes of the headings.
     fn anchors(&self) -> BTreeSet<String> {
         let headings = self.prose.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim());
         let kept = |c: char| c.is_alphanumeric() || c == '-' || c == ' ' || c == '_';
@@ -135,7 +135,7 @@ fn documents(root: &Path) -> Vec<Document> {
     found
 }
 
-/// What stands in the folders beside the documents.
+/// The files in the folders beside the documents.
 #[derive(Default)]
 struct Sources {
     /// Every file's name.
@@ -229,7 +229,7 @@ fn names_end_with(root: &Path, names: &BTreeSet<String>, code: &str) -> bool {
     names.contains(name) && (name == code || FOLDERS.iter().any(|folder| root.join(folder).join(code).exists()))
 }
 
-/// What is wrong with a line that may be a command.
+/// The mistakes of a line that may be a command.
 fn check_command(line: &str, root: &Path, help: &Help, script_flags: &BTreeSet<String>) -> Vec<String> {
     let words: Vec<&str> = line.split_whitespace().skip_while(|word| word.contains('=') && !word.starts_with('-')).collect();
     let missing = |folder: &str, name: &str| {

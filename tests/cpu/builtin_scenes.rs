@@ -42,7 +42,7 @@ const OF_DEVICES: [&str; 26] = [
     "UNIFORM_TABLES",
 ];
 
-/// What scenes compile in on a device.
+/// The switches that scenes compile in on a device.
 fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -> BTreeSet<&'static str> {
     let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
     let of_scene = |scene: &Scene| {
@@ -97,7 +97,8 @@ fn built_in_scenes_use_every_switch() {
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");
 }
 
-/// Those that `tests/gpu/agreement` compares in its short form miss nothing that the others have, on the devices that it runs on.
+/// The scenes that `tests/gpu/agreement` compares in its short form miss no switch of the others, on the
+/// devices that it runs on.
 #[test]
 fn a_few_built_in_scenes_use_every_switch_that_any_uses() {
     let software = DeviceLimits {

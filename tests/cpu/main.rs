@@ -1,4 +1,5 @@
-//! What needs no graphics device: files and their errors, packing, plans, shader texts, samplers, and pictures by the reference.
+//! Tests that need no graphics device: files and their errors, packing, plans, shader texts, samplers, and
+//! pictures by the reference.
 
 #[path = "../common/mod.rs"]
 mod common;

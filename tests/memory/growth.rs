@@ -23,7 +23,7 @@ fn read(text: &str) -> Scene {
     load::load_toml_str(text, "grown.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Whether pilots trace their paths, most of which go through thousands of spheres and blends.
+/// True if pilots trace their paths, most of which go through thousands of spheres and blends.
 static WITH_PILOTS: LazyLock<bool> = LazyLock::new(|| in_full("pilots of scenes of twice the size"));
 
 /// Prepares the scene for both devices.
@@ -54,7 +54,7 @@ fn time_of_thread() -> Duration {
     START.elapsed()
 }
 
-/// What of the work grows by more than that of twice the size. Quadratic work grows by four.
+/// The kinds of work that grow by more than that of twice the size. Quadratic work grows by four.
 fn excess(size: usize, work: impl Fn(usize) + Sync) -> Option<String> {
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let measure = |size: usize| {

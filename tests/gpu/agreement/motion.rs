@@ -221,7 +221,7 @@ fn a_camera_that_moves_agrees() {
     }
 }
 
-/// What no ray meets moves in vain: nothing is compiled for it.
+/// A moving shape that no ray meets costs nothing: no code is compiled for it.
 #[test]
 fn a_moving_shape_of_pass_is_still() {
     let unseen =

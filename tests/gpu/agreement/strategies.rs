@@ -120,7 +120,7 @@ pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     Some(verify::compare(theirs, &mut gpu, &mut cpu, None).expect("both render"))
 }
 
-/// The same comparison notices when the devices draw from different samplers, be it for the pixel alone.
+/// The comparison notices when the devices draw from different samplers, be it for the pixel alone.
 #[test]
 fn another_sampler_is_noticed() {
     let scene = small("spheres", 24, 4);
