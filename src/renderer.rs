@@ -180,7 +180,7 @@ pub trait Renderer {
     /// that the renderer was made with.
     ///
     /// # Errors
-    /// As for the first frame. There is no renderer any more then.
+    /// The errors of the first frame. There is no renderer any more then.
     fn with_scene(
         self: Box<Self>,
         scene: &Scene,

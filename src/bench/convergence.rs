@@ -94,7 +94,7 @@ pub struct EqualTimePicture {
 /// Measures one scene; `say` is told what is going on.
 ///
 /// # Errors
-/// What devices and files report, a reference that does not fit, and [`BenchError::Interrupted`] where nothing can be said yet.
+/// Errors of devices and files, a reference that does not fit, and [`BenchError::Interrupted`] where nothing can be said yet.
 pub fn measure(
     scene: &Scene,
     options: &ConvergenceOptions,

@@ -54,7 +54,7 @@ pub struct FeatureCost {
 /// Measures one feature.
 ///
 /// # Errors
-/// What the device reports, and [`BenchError::Interrupted`].
+/// Errors of the device, and [`BenchError::Interrupted`].
 pub fn measure(
     feature: &Feature,
     options: &FeatureOptions,

@@ -66,7 +66,7 @@ impl Reference {
     /// Renders [`PARTS`] pictures and takes their mean; at least `spp` samples per pixel in all.
     ///
     /// # Errors
-    /// What the subject reports.
+    /// Errors of the subject.
     pub fn render(subject: &mut dyn Subject, spp: u32) -> Result<Self, BenchError> {
         let part_spp = spp.div_ceil(PARTS).max(1);
         let mut size = [0, 0];
@@ -147,7 +147,7 @@ impl Store {
     /// Keeps a reference that was rendered; says where.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn keep(&self, scene: &Scene, device: &str, spp: u32, reference: &Reference) -> Result<PathBuf, BenchError> {
         let write_failure = |source| OutputError::Write { path: self.folder.clone(), source };
         std::fs::create_dir_all(&self.folder).map_err(write_failure)?;

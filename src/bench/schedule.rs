@@ -97,7 +97,7 @@ pub fn by_brightness(reference: f64) -> f64 {
 /// these, and the flag says so.
 ///
 /// # Errors
-/// What subjects report, and a reference of another size.
+/// Errors of subjects, and a reference of another size.
 pub fn observe_schedule(
     subjects: &mut [Box<dyn Subject + '_>],
     reference: &Reference,

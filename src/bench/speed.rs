@@ -161,7 +161,7 @@ struct Profile {
 /// Measures one table: every entry is made ready, then all take turns. Scenes that do not fit the device say so in their row.
 ///
 /// # Errors
-/// What devices report but for a scene that does not fit, and [`BenchError::Interrupted`].
+/// Errors of devices but for a scene that does not fit, and [`BenchError::Interrupted`].
 pub fn measure(
     growth: Growth,
     own: &[Scene],

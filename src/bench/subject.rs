@@ -62,7 +62,7 @@ pub trait Subject {
     /// Renders samples 0 to `spp` of every pixel with random numbers of this seed.
     ///
     /// # Errors
-    /// What the renderer reports, and [`BenchError::Interrupted`].
+    /// Errors of the renderer, and [`BenchError::Interrupted`].
     fn render(&mut self, seed: u32, spp: u32) -> Result<Run, BenchError>;
 }
 
@@ -111,7 +111,7 @@ impl Devices {
     /// Prepares a layer in the place of the picture, as [`Devices::prepare`] prepares the picture.
     ///
     /// # Errors
-    /// As [`Devices::prepare`].
+    /// The errors of [`Devices::prepare`].
     pub fn prepare_layer(
         &mut self,
         scene: &Scene,

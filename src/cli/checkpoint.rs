@@ -112,7 +112,7 @@ fn begin(
 /// The checkpoint of a layer, if there shall be one.
 ///
 /// # Errors
-/// As [`Kept::begin`].
+/// The errors of [`Kept::begin`].
 pub fn of_layer(
     arguments: &CheckpointArguments,
     (renderer, layer): (&Renderer, KernelLayer),

@@ -81,7 +81,7 @@ pub fn of_files(arguments: &RenderArguments, scene: &Scene, outputs: &[(PathBuf,
 /// Renders these layers. With `--checkpoint`, each has a state of its own.
 ///
 /// # Errors
-/// What the device and the files report, and an interrupt.
+/// Errors of the device and the files, and an interrupt.
 pub fn render(
     arguments: &RenderArguments,
     options: &RenderOptions,

@@ -100,7 +100,7 @@ fn named_inputs(arguments: &RenderArguments) -> impl Iterator<Item = &Path> {
 /// scene is then ready for another one.
 ///
 /// # Errors
-/// What the scene, the device, the files and the arguments report.
+/// Errors of the scene, the device, the files and the arguments.
 fn scene(
     arguments: &RenderArguments,
     options: &RenderOptions,
@@ -145,7 +145,7 @@ fn scene(
 /// Renders a picture to its files.
 ///
 /// # Errors
-/// What the device, the files and the arguments report.
+/// Errors of the device, the files and the arguments.
 fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     let Frame { arguments, options, scene, outputs, time, started, load_seconds, span, live } = frame;
     check_inputs(outputs, arguments, live.files())?;

@@ -35,7 +35,7 @@ impl Ready {
     /// Makes a frame ready.
     ///
     /// # Errors
-    /// As [`Renderer::on`].
+    /// The errors of [`Renderer::on`].
     pub fn renderer(self, scene: &Scene, options: &RenderOptions) -> Result<Renderer, RenderError> {
         match self {
             Self::Device(choice) => Renderer::on(choice, scene, options),
@@ -113,7 +113,7 @@ impl Sequence<'_> {
     /// Renders all frames. The first that breaks off or fails is the last. What rendered it may render another scene.
     ///
     /// # Errors
-    /// What the first frame that fails reports.
+    /// Errors of the first frame that fails.
     pub fn render(&self, mut ready: Ready, render: Render<'_>) -> Result<(Exit, Option<Ready>), Failure> {
         let (mut worst, mut all_stats) = (Exit::Done, Vec::new());
         let several = self.arguments.frames.is_sequence();

@@ -59,7 +59,7 @@ pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Fai
 /// Overrides size and settings, where they are given.
 ///
 /// # Errors
-/// As [`check`].
+/// The errors of [`check`].
 pub fn apply_to(size: Option<[u32; 2]>, settings: &SettingFlags, scene: &mut Scene) -> Result<(), Failure> {
     if let Some(size) = size {
         scene.film.size = size;

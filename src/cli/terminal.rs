@@ -53,7 +53,7 @@ pub fn answer(text: &str) -> Result<(), Failure> {
 /// Writes a value as [`answer`] does, as indented JSON.
 ///
 /// # Errors
-/// As [`answer`].
+/// The errors of [`answer`].
 pub fn answer_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let json = serde_json::to_string_pretty(value).map_err(|error| Failure::Other(error.to_string()))?;
     answer(&(json + "\n"))

@@ -35,7 +35,7 @@ pub fn known() -> VerifiedDrivers {
 /// Adds a device that passed, or takes out one that did not. Says whether that is a change.
 ///
 /// # Errors
-/// What the file system says.
+/// Errors of the file system.
 pub fn keep(path: &Path, device: &str, passed: bool) -> io::Result<bool> {
     let mut entries = read(path);
     let entry = Entry::of(device);

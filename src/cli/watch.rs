@@ -39,7 +39,7 @@ type Rendering<'a> = dyn Fn(&mut Option<Ready>, &Live, Instant) -> Result<Exit, 
 /// it began.
 ///
 /// # Errors
-/// What keeps the first render from beginning, but for mistakes in the scene, which can be mended.
+/// Errors that keep the first render from beginning, but for mistakes in the scene, which can be repaired.
 pub fn run(ready: Ready, live: Live, mut started: Instant, render: &Rendering<'_>) -> Result<Exit, Failure> {
     let mut ready = Some(ready);
     let mut last = Exit::Done;

@@ -55,7 +55,7 @@ impl LayerSums {
     /// The channels of the whole picture of this width. `samples`: how many each pixel has.
     ///
     /// # Errors
-    /// What temporary files do.
+    /// Errors of temporary files.
     pub fn channels(&self, size: [u32; 2], samples: impl Fn(usize) -> f64) -> io::Result<Vec<LayerChannel>> {
         let mut channels = Vec::new();
         for (kernel, sums) in &self.kernels {

@@ -124,7 +124,7 @@ impl Merged {
     /// The channels of its layers.
     ///
     /// # Errors
-    /// What temporary files do.
+    /// Errors of temporary files.
     pub fn layer_channels(&self) -> io::Result<Vec<LayerChannel>> {
         self.layer_sums.channels(self.size, |pixel| self.pixels[pixel].count)
     }

@@ -66,7 +66,7 @@ impl AtomicFile {
     /// Does the work of [`AtomicFile::commit`] under another name in the same folder.
     ///
     /// # Errors
-    /// As [`AtomicFile::commit`].
+    /// The errors of [`AtomicFile::commit`].
     pub fn commit_as(mut self, target: &Path) -> Result<(), OutputError> {
         self.put(target)
     }
@@ -122,7 +122,7 @@ impl AtomicFile {
     /// Writes `bytes` as the whole file at `path`.
     ///
     /// # Errors
-    /// As [`AtomicFile::create`] and [`AtomicFile::commit`].
+    /// The errors of [`AtomicFile::create`] and [`AtomicFile::commit`].
     pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         let file = Self::create(path)?;
         file.handle()?.write_all(bytes).map_err(|source| file.failure(source))?;

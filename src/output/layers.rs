@@ -21,7 +21,7 @@ impl LayerPicture {
     /// All 0.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn new([width, height]: [u32; 2]) -> Result<Self> {
         let file = temporary_file()?;
         file.set_len(u64::from(width) * u64::from(height) * size_of::<[f32; 3]>() as u64).map_err(in_temporary_folder)?;
@@ -31,7 +31,7 @@ impl LayerPicture {
     /// Writes whole rows, from this one on.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn write_rows(&self, first_row: u32, pixels: &[[f32; 3]]) -> Result<()> {
         let mut file = self.at_row(first_row)?;
         file.write_all(bytemuck::cast_slice(pixels)).map_err(in_temporary_folder)
@@ -40,7 +40,7 @@ impl LayerPicture {
     /// A row.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn row(&self, row: u32) -> Result<Vec<[f32; 3]>> {
         let mut pixels = vec![[0.0; 3]; self.width];
         let mut file = self.at_row(row)?;

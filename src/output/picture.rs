@@ -50,7 +50,7 @@ impl PictureFile {
     /// Begins the file; `format` is what the path's ending asked for. The path [`STDOUT`] is standard output.
     ///
     /// # Errors
-    /// As [`AtomicFile::create`]; a system that starts no more threads.
+    /// The errors of [`AtomicFile::create`]; a system that starts no more threads.
     pub fn create(path: &Path, format: PictureFormat, spec: &PictureSpec) -> Result<Self, OutputError> {
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
         let place = if path == Path::new(STDOUT) {
@@ -104,7 +104,7 @@ impl PictureFile {
     /// Finishes the file with what came, black where nothing came, and puts it in its place.
     ///
     /// # Errors
-    /// What the encoder or the file system said.
+    /// Errors of the encoder and the file system.
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.encode_rest(Completeness::Finished)?;
         match self.place {
@@ -120,7 +120,7 @@ impl PictureFile {
     /// the place stays there, and this one goes beside it. The result is where it went.
     ///
     /// # Errors
-    /// As [`PictureFile::finish`].
+    /// The errors of [`PictureFile::finish`].
     pub fn finish_broken_off(mut self) -> Result<PathBuf, OutputError> {
         self.encode_rest(Completeness::BrokenOff)?;
         match self.place {

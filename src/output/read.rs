@@ -96,7 +96,7 @@ pub fn read_undamaged_picture(path: &Path) -> Result<ReadPicture, ReadError> {
 /// The pixels of [`read_picture`].
 ///
 /// # Errors
-/// As there.
+/// The errors of [`read_picture`].
 pub fn read_image(path: &Path) -> Result<Image, ReadError> {
     read_picture(path).map(|picture| picture.image)
 }

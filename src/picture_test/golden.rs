@@ -122,7 +122,7 @@ impl Golden {
     /// Writes the picture as an EXR file.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn write(&self, path: &Path, provenance: Provenance) -> Result<(), PictureTestError> {
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
         let Image { width, height, ref pixels } = self.mean;

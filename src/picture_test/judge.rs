@@ -35,7 +35,7 @@ pub struct Judgement {
 /// Renders the scene and holds it against its golden picture, which has its size.
 ///
 /// # Errors
-/// What the device reports; a golden picture of another size; [`PictureTestError::Interrupted`].
+/// Errors of the device; a golden picture of another size; [`PictureTestError::Interrupted`].
 pub fn judge(
     renderer: &mut dyn Renderer,
     golden: &Golden,

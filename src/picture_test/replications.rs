@@ -69,7 +69,7 @@ impl Replications {
     /// Renders once more.
     ///
     /// # Errors
-    /// What the device reports; [`PictureTestError::Interrupted`].
+    /// Errors of the device; [`PictureTestError::Interrupted`].
     pub fn render(&mut self, renderer: &mut dyn Renderer, seed: u32, observer: &dyn Observer) -> Result<(), PictureTestError> {
         renderer.set_samples_per_pixel(self.samples);
         let request = RenderRequest { rows: self.rows.clone(), samples: 0..self.samples };

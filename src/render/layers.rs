@@ -33,7 +33,7 @@ struct Rendered {
 /// `of_part`, there are also those that joining parts needs. None where the observer stopped it; `checkpoint` then has how far it came.
 ///
 /// # Errors
-/// What the device reports, what temporary files do, and what `checkpoint` says.
+/// Errors of the device, of temporary files, and of `checkpoint`.
 pub fn render_layers<E: From<RenderError>>(
     scene: &Scene,
     options: &RenderOptions,

@@ -62,7 +62,7 @@ impl Renderer {
     /// they are applied.
     ///
     /// # Errors
-    /// As [`Renderer::new`].
+    /// The errors of [`Renderer::new`].
     #[doc(hidden)]
     pub fn on(choice: Choice, scene: &Scene, options: &RenderOptions) -> Result<Self, RenderError> {
         let ChosenRenderer { renderer, notice } = choice.renderer(scene, &options.plan_options())?;
@@ -77,7 +77,7 @@ impl Renderer {
     /// one size and the same settings.
     ///
     /// # Errors
-    /// As [`Renderer::new`]. There is no renderer any more then.
+    /// The errors of [`Renderer::new`]. There is no renderer any more then.
     #[doc(hidden)]
     pub fn at_frame(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
         let Self { renderer, notice, options, film, size, bulk, memory, .. } = self;
@@ -93,7 +93,7 @@ impl Renderer {
     /// differ in their cameras alone, all else stays. Options are those that it was made with, applied to the scene.
     ///
     /// # Errors
-    /// As [`Renderer::new`]. There is no renderer any more then.
+    /// The errors of [`Renderer::new`]. There is no renderer any more then.
     #[doc(hidden)]
     pub fn with_scene(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
         let Self { renderer, notice, options, film, provenance: earlier, memory, .. } = self;
@@ -159,7 +159,7 @@ impl Renderer {
     /// Renders, and hands over finished rows from the top, each once. Where the observer stops it, the rows hold what was done until then.
     ///
     /// # Errors
-    /// What the device or `on_band` reports. Where the device is lost, rows hold what was read from it before, and the error follows.
+    /// Errors of the device and of `on_band`. If the device is lost, rows hold what was read from it before, and the error follows.
     pub fn render(&mut self, observer: &dyn Observer, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> Result<Outcome, Error> {
         Ok(self.render_from(Instant::now(), observer, None, on_band)?)
     }
@@ -167,7 +167,7 @@ impl Renderer {
     /// Renders the whole picture into memory.
     ///
     /// # Errors
-    /// What the device reports.
+    /// Errors of the device.
     pub fn image(&mut self, observer: &dyn Observer) -> Result<Image, Error> {
         let mut bands = Vec::new();
         let outcome = self.render(observer, &mut |band| {
@@ -181,7 +181,7 @@ impl Renderer {
     /// in a checkpoint; the time of earlier renders counts too.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
+    /// The errors of [`Renderer::render`].
     #[doc(hidden)]
     pub fn render_from(
         &mut self,
@@ -201,7 +201,7 @@ impl Renderer {
     /// Renders the first samples of every pixel alone, for a look at the picture before the rest of it is rendered.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
+    /// The errors of [`Renderer::render`].
     #[doc(hidden)]
     pub fn render_first(
         &mut self,

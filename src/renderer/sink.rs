@@ -26,7 +26,7 @@ pub trait Sink {
     /// Takes how far the batch is: now and then, and where the render breaks off.
     ///
     /// # Errors
-    /// As [`Sink::band`].
+    /// The errors of [`Sink::band`].
     fn state(&mut self, state: BatchState) -> io::Result<()> {
         drop(state);
         Ok(())
@@ -36,7 +36,7 @@ pub trait Sink {
 /// Between two pieces of a render, the first of which is whole: gives the sink the state there, if it is time for one or the render `stops`.
 ///
 /// # Errors
-/// As [`Sink::state`].
+/// The errors of [`Sink::state`].
 pub fn keep_between(sink: &mut dyn Sink, stops: bool, state: &BatchState) -> io::Result<()> {
     if sink.takes_states() && (stops || sink.wants_state()) { sink.state(state.clone()) } else { Ok(()) }
 }

@@ -15,7 +15,7 @@ impl Scene {
     /// frame itself. Meshes, textures and whatever else does not change are shared.
     ///
     /// # Errors
-    /// What cannot be rendered there: a camera that looks at the point it stands at, a shape that is flattened.
+    /// A frame that cannot be rendered: a camera that looks at the point it stands at, a shape that is flattened.
     pub fn at_frame(&self, frame: f64) -> Result<Self, InvalidScene> {
         let animation = &self.animation;
         let mut scene = self.clone();

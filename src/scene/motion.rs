@@ -62,7 +62,7 @@ impl MotionStep {
     /// step is reached.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// The mistake, in words.
     pub fn check(self, [open, close]: [f64; 2]) -> Result<(), String> {
         match self {
             Self::Scale(scale) => {
@@ -94,7 +94,7 @@ impl Motion {
     /// Checks that all steps can be followed over the whole shutter, and lead to where numbers are finite.
     ///
     /// # Errors
-    /// What is wrong, in words, and in which step if it is a single one.
+    /// The mistake, in words, and its step if it is in a single one.
     pub fn check(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
         let shares = shutter.map(|time| self.share(time));
         for (index, step) in self.steps.iter().enumerate() {

@@ -92,7 +92,7 @@ pub fn count() -> usize {
 /// Renders the closed form number `index` on a device and judges it.
 ///
 /// # Errors
-/// What rendering reports.
+/// Errors of rendering.
 pub fn check(index: usize, device: &Device, options: &PlanOptions) -> Result<ClosedForm, ClosedFormError> {
     let scene = load(&CASES[index])?;
     let mut gpu = GpuRenderer::on(device, &scene, options)?;
@@ -103,7 +103,7 @@ pub fn check(index: usize, device: &Device, options: &PlanOptions) -> Result<Clo
 /// Checks the reference as [`check`] checks a device.
 ///
 /// # Errors
-/// As [`check`].
+/// The errors of [`check`].
 pub fn check_reference(index: usize) -> Result<ClosedForm, ClosedFormError> {
     let scene = load(&CASES[index])?;
     judge(&CASES[index], &scene, &mut ReferenceRenderer::new(&scene)?)

@@ -145,7 +145,7 @@ pub fn shrink(scene: &mut Scene, side: u32) {
 /// Renders `scene` on both devices, sample by sample, and compares.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn verify(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Verdict, RenderError> {
     verify_on(&Device::open_for(choice, options)?, scene, options, None)
 }
@@ -153,7 +153,7 @@ pub fn verify(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Re
 /// Does the work of [`verify`]; None where the observer ends it.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn verify_watched(
     scene: &Scene,
     choice: &DeviceChoice,
@@ -168,7 +168,7 @@ pub fn verify_watched(
 /// scene's share of matching paths.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn verify_on(
     device: &Device,
     scene: &Scene,
@@ -190,7 +190,7 @@ fn planted(gpu: &GpuRenderer, options: &PlanOptions) -> Option<Fault> {
 /// Does the work of [`verify`] for any renderer and a reference.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn compare(
     scene: &Scene,
     gpu: &mut dyn Renderer,
@@ -204,7 +204,7 @@ pub fn compare(
 /// Does the work of [`compare`]; None where the observer ends it.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn compare_watched(
     scene: &Scene,
     gpu: &mut dyn Renderer,

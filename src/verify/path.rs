@@ -105,7 +105,7 @@ pub struct PathComparison {
 /// Follows one path on both devices.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn compare_path(
     device: &Device,
     scene: &Scene,

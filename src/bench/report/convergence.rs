@@ -97,7 +97,7 @@ fn floor_sentence(floor: &Floor) -> String {
 /// The whole report.
 ///
 /// # Errors
-/// What charts and pictures report.
+/// Errors of charts and pictures.
 pub fn convergence_page(scenes: &[SceneConvergence], machine: &Machine) -> Result<String, BenchError> {
     let sections: Result<Vec<Markup>, BenchError> =
         scenes.iter().enumerate().map(|(index, scene)| section(index, scene)).collect();

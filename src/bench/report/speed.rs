@@ -110,7 +110,7 @@ pub fn speed_text(table: &SpeedTable) -> String {
 /// The whole report.
 ///
 /// # Errors
-/// What charts report.
+/// Errors of charts.
 pub fn speed_page(tables: &[SpeedTable], machine: &Machine) -> Result<String, BenchError> {
     let sections: Result<Vec<Markup>, BenchError> = tables.iter().map(section).collect();
     let content = html! {

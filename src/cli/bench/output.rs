@@ -36,7 +36,7 @@ impl Results {
     /// Makes the folder, so that hours of work do not end at a place that cannot be written to.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn prepare(arguments: &OutputArguments, bench: &'static str, read: &FileLog) -> Result<Self, Failure> {
         let folder = arguments.output.clone().unwrap_or_else(|| Path::new("gpt-bench").join(bench));
         std::fs::create_dir_all(&folder).map_err(|source| OutputError::Write { path: folder.clone(), source })?;
@@ -56,7 +56,7 @@ impl Results {
     /// Writes the page, all numbers as JSON, and the rows.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn write(&self, results: &impl Serialize, csv: &[u8], page: &str) -> Result<(), Failure> {
         let json = serde_json::to_vec_pretty(results).map_err(|error| Failure::Other(error.to_string()))?;
         let [json_file, csv_file, report] = files(&self.folder, self.bench);

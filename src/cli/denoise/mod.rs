@@ -114,7 +114,7 @@ fn write(
 /// The file of a render that denoising reads.
 ///
 /// # Errors
-/// Where there is none.
+/// Outputs without an EXR file.
 pub fn raw_output(outputs: &[(PathBuf, PictureFormat)]) -> Result<&Path, Failure> {
     let raw = outputs.iter().find(|(path, format)| *format == PictureFormat::Exr && !is_stdout(path));
     let missing = || Failure::usage("--denoise: the picture is read from an .exr file, and -o names none");

@@ -42,7 +42,7 @@ impl LayerImage {
     /// Its numbers, row by row from the top.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn pixels(&self) -> std::io::Result<Vec<[f32; 3]>> {
         let mut pixels = Vec::with_capacity(self.width as usize * self.height as usize);
         for row in 0..self.height {

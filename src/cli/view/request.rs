@@ -96,7 +96,7 @@ fn same(a: &[u8], b: &[u8]) -> bool {
 /// Sends an answer and what every answer says: it stays on this machine, in no cache and in no other page.
 ///
 /// # Errors
-/// What the connection reports.
+/// Errors of the connection.
 pub fn answer(mut connection: impl Write, status: &str, kind: &str, body: &[u8], with_body: bool) -> io::Result<()> {
     let head = format!(
         "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: close\r\nCache-Control: no-store\r\n\

@@ -25,7 +25,7 @@ impl RadianceFile {
     /// Reads the header.
     ///
     /// # Errors
-    /// What is no such picture.
+    /// A file that is no such picture.
     pub fn open(mut file: AnyFile, color_space: Option<ColorSpace>) -> Result<Self, String> {
         let header = RadianceHeader::read(&mut file)?;
         Ok(Self { file, header, color_space: color_space.unwrap_or(ColorSpace::Linear) })

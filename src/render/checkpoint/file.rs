@@ -26,7 +26,7 @@ struct Header<H> {
 /// Writes a checkpoint, whole or not at all.
 ///
 /// # Errors
-/// As [`AtomicFile::create`] and [`AtomicFile::commit`].
+/// The errors of [`AtomicFile::create`] and [`AtomicFile::commit`].
 pub fn write<H: Serialize>(path: &Path, content: &H, arrays: &[&[u8]]) -> Result<(), OutputError> {
     let failure = |source| OutputError::Write { path: path.to_owned(), source };
     let header = Header { content, arrays: arrays.iter().map(|array| array.len() as u64).collect() };
@@ -56,7 +56,7 @@ impl<H> Content<H> {
     /// The next array, which must have so many items.
     ///
     /// # Errors
-    /// It has another number of items.
+    /// An array with another number of items.
     pub fn array<T: Pod>(&mut self, items: usize) -> Result<Vec<T>, String> {
         let bytes = self.arrays.next().unwrap_or_default();
         if bytes.len() != items * size_of::<T>() {

@@ -113,7 +113,7 @@ impl Saved {
     /// Writes it, whole or not at all.
     ///
     /// # Errors
-    /// As [`file::write`].
+    /// The errors of [`file::write`].
     pub fn write(&self, path: &Path, identity: &Identity) -> Result<(), OutputError> {
         let BatchState { rows, done, sweep, reached, film, tally } = &self.batch;
         let batch = BatchHeader {

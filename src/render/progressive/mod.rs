@@ -37,7 +37,7 @@ use watching::{Watch, Watched};
 /// pixel that were spent on average.
 ///
 /// # Errors
-/// What the renderer reports.
+/// Errors of the renderer.
 pub fn render(
     renderer: &mut dyn Renderer,
     size: [u32; 2],
@@ -58,7 +58,7 @@ pub fn is_one_batch(goal: &Goal, holds_whole_film: bool) -> bool {
 /// Renders as [`render`] does, from the place of the checkpoint, which gets further states.
 ///
 /// # Errors
-/// As [`render`].
+/// The errors of [`render`].
 pub fn render_kept(
     renderer: &mut dyn Renderer,
     size: [u32; 2],

@@ -78,7 +78,7 @@ impl Picture {
     /// Hands over the rows that have samples, from the top.
     ///
     /// # Errors
-    /// What the receiver says.
+    /// Errors of the receiver.
     pub fn deliver(&self, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> io::Result<()> {
         let with_counts = self.counts.iter().any(|count| *count != self.counts[0]);
         let mut row = 0;

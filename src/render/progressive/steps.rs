@@ -92,7 +92,7 @@ impl<'a> Work<'a> {
     /// Hands over the picture as far as it is.
     ///
     /// # Errors
-    /// What the receiver says.
+    /// Errors of the receiver.
     pub fn deliver(&self, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> io::Result<()> {
         self.picture.deliver(on_band)
     }
@@ -130,7 +130,7 @@ impl<'a> Work<'a> {
     /// Renders until the goal is reached or cannot be.
     ///
     /// # Errors
-    /// What the renderer reports.
+    /// Errors of the renderer.
     pub fn run(&mut self) -> Result<Stop, RenderError> {
         let per_stream = (self.goal.samples.len() as u32 / self.streams).max(1);
         let stages = if self.goal.adaptive { stages(per_stream, self.streams) } else { Vec::new() };

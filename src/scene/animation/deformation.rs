@@ -77,7 +77,7 @@ impl Deformation {
     /// Every list is as long as the mesh needs it, every joint is there and every number is finite.
     ///
     /// # Errors
-    /// What is wrong, in a sentence.
+    /// The mistake, in a sentence.
     pub fn check(&self) -> Result<(), String> {
         let count = self.base.positions.len();
         for (index, target) in self.targets.iter().enumerate() {

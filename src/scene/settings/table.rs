@@ -224,7 +224,7 @@ impl Setting {
     /// The setting with this number.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn number(&'static self, number: i64) -> Result<Assignment, String> {
         self.values.number(number).map(|value| Assignment { setting: self, value })
     }
@@ -232,7 +232,7 @@ impl Setting {
     /// The setting with this number, which need not be whole.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn real(&'static self, number: f64) -> Result<Assignment, String> {
         self.values.real(number).map(|value| Assignment { setting: self, value })
     }
@@ -240,7 +240,7 @@ impl Setting {
     /// The setting with the value that is written so, a number or a name.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn text(&'static self, text: &str) -> Result<Assignment, String> {
         self.values.text(text).map(|value| Assignment { setting: self, value })
     }
@@ -248,7 +248,7 @@ impl Setting {
     /// The setting with the value of this name.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn name(&'static self, name: &str) -> Result<Assignment, String> {
         self.values.name(name).map(|value| Assignment { setting: self, value })
     }

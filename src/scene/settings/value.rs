@@ -54,7 +54,7 @@ impl Values {
     /// The number as a value.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn number(self, number: i64) -> Result<Value, String> {
         match (self, u32::try_from(number)) {
             (Self::Whole(least, most) | Self::WholeOr(least, most, _), Ok(number)) if (least..=most).contains(&number) => {
@@ -74,7 +74,7 @@ impl Values {
     /// The number, which need not be whole, as a value.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn real(self, number: f64) -> Result<Value, String> {
         match self {
             Self::Real(least, most) if (least..=most).contains(&number) => Ok(Value::Real(number)),
@@ -85,7 +85,7 @@ impl Values {
     /// The value of this name.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn name(self, name: &str) -> Result<Value, String> {
         match self {
             Self::Names(names) => names.iter().find(|known| known.name == name).map(|known| Value::Name(known.name)),
@@ -98,7 +98,7 @@ impl Values {
     /// The value that is written so, a number or a name.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn text(self, text: &str) -> Result<Value, String> {
         let wrong = || self.to_string();
         match self {
@@ -112,7 +112,7 @@ impl Values {
     /// Checks that the value is one of these.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn check(self, value: Value) -> Result<(), String> {
         match value {
             Value::Number(number) => self.number(number.into()),

@@ -184,7 +184,7 @@ impl Shape {
     /// shapes stay round.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// The mistake, in words.
     pub fn check_place(&self) -> Result<(), String> {
         let map = self.transform.to_affine();
         let determinant = map.matrix3.determinant();
@@ -200,7 +200,7 @@ impl Shape {
     /// Checks that renderers can follow the shape's motion while the shutter is open.
     ///
     /// # Errors
-    /// What is wrong, in words, and in which step of the motion if it is a single one.
+    /// The mistake, in words, and its step of the motion if it is in a single one.
     pub fn check_motion(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
         let Some(motion) = &self.motion else { return Ok(()) };
         if self.geometry.is_infinite() {
