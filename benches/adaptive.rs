@@ -1,9 +1,11 @@
-//! What samples that follow the noise are worth: `cargo bench --bench adaptive [-- SCENES]`, of
-//! cornell, veach-mis, spheres, caustic, behind-glass, ogre-area, bunny-area; the last two want models that are not part of the project.
+//! The gain of samples that follow the noise: `cargo bench --bench adaptive [-- SCENES]`, of cornell,
+//! veach-mis, spheres, caustic, behind-glass, ogre-area, bunny-area; the last two need models that are not
+//! part of the project.
 //!
-//! The same number of samples with and without `--adaptive`, in turn, and with the independent streams that `--target-error` needs. Error:
-//! relative mean squared error against a long render, less that render's own. Time times error is what equal error costs; its ratio, pair
-//! by pair, is the table of docs/performance.md.
+//! Equal numbers of samples are rendered with and without `--adaptive`, in turn, and with the independent
+//! streams that `--target-error` needs. Error: relative mean squared error against a long render, less that
+//! render's own. Time times error is what equal error costs; its ratio, pair by pair, is the table of
+//! docs/performance.md.
 
 #[path = "../tests/common/caustic.rs"]
 mod caustic;

@@ -1,4 +1,4 @@
-//! What the CPU does before and beside the device: `cargo bench --bench cpu`.
+//! The work of the CPU before and beside the device: `cargo bench --bench cpu`.
 //!
 //! Reading scene files and models, packing a scene, building the hierarchy, drawing random numbers, following reference paths.
 

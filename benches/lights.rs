@@ -1,4 +1,4 @@
-//! What the ways of sampling lights are worth: `cargo bench --bench lights [-- spheres|many|portals]`.
+//! The efficiency of the ways of sampling lights: `cargo bench --bench lights [-- spheres|many|portals]`.
 //!
 //! Error: mean square over pixels and channels against a long render, averaged over seeds. Cost: seconds for the same samples, the ways in
 //! turn so that all meet the machine in the same state, as ratios pair by pair. Error times cost is what is left at equal time. Prints the

@@ -1,4 +1,4 @@
-//! What samplers and filters are worth: `cargo bench --bench strategies [-- samplers|filters|cost]`.
+//! The efficiency of samplers and filters: `cargo bench --bench strategies [-- samplers|filters|cost]`.
 //!
 //! Error: mean square over pixels and channels against a long render of the same filter, averaged over seeds; and the same relative to
 //! the square of the reference. Cost: samples per second,

@@ -58,7 +58,7 @@ mod tests {
         ] {
             let color = tristimulus(kelvin);
             let [found_x, found_y] = [color.x, color.y].map(|part| part / color.element_sum());
-            // What the sums of Gaussians cost.
+            // The tolerance is the error of the sums of Gaussians.
             assert!((found_x - x).abs() < 4e-3 && (found_y - y).abs() < 4e-3, "{kelvin} K: {found_x} {found_y}");
         }
     }

@@ -7,7 +7,7 @@ pub trait Choice: Copy + PartialEq + 'static {
     /// The names and meanings of [`Choice::VALUES`], in the same order.
     const NAMES: &'static [Named];
 
-    /// What people call the value.
+    /// The name of the value for people.
     fn name(self) -> &'static str;
 
     /// The value of this name.
@@ -25,7 +25,7 @@ pub struct Named {
 }
 
 impl Named {
-    /// What the name stands for, in a sentence.
+    /// The meaning of the name, in a sentence.
     pub fn help(&self) -> &'static str {
         self.doc.trim_start()
     }

@@ -35,7 +35,7 @@ pub enum Error {
     Read {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The mistake, in a sentence.
         message: String,
     },
     /// A picture file could not be written. The message names the file.

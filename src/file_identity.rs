@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use crate::patience;
-
 /// Links that lead from one to the next, at most: as many as Linux follows.
 const MOST_LINKS: usize = 40;
 
@@ -20,13 +18,6 @@ pub enum FileIdentity {
 impl FileIdentity {
     /// The identity of the file to which a path leads, be it there or not.
     pub fn of(path: &Path) -> Self {
-        let asked = path.to_owned();
-        let found = patience::within(move || Ok(Self::now(&asked)));
-        found.unwrap_or_else(|_| Self::Place(path.to_owned()))
-    }
-
-    /// Does the work of [`FileIdentity::of`], on a file system that answers.
-    fn now(path: &Path) -> Self {
         if let Some(number) = fs::metadata(path).ok().and_then(|metadata| Self::number(&metadata)) {
             return number;
         }

@@ -85,6 +85,7 @@ pub mod device;
 pub mod emission_map;
 mod error;
 mod file_identity;
+mod file_log;
 #[doc(hidden)]
 pub mod film;
 #[doc(hidden)]
@@ -102,8 +103,6 @@ pub mod merge;
 pub mod output;
 #[doc(hidden)]
 pub mod packed;
-#[doc(hidden)]
-pub mod patience;
 mod picture_file;
 #[doc(hidden)]
 pub mod picture_test;

@@ -24,7 +24,7 @@ pub fn xyz_to_rec709(xyz: DVec3) -> DVec3 {
     )
 }
 
-/// As [`luminance`], in single precision, of a film's pixel.
+/// The luminance of a film's pixel: [`luminance`] in single precision.
 pub fn luminance_f32([r, g, b]: [f32; 3]) -> f32 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
@@ -34,7 +34,7 @@ pub fn srgb_to_linear(encoded: f32) -> f32 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((f64::from(encoded) + 0.055) / 1.055).powf(2.4) as f32 }
 }
 
-/// As [`srgb_to_linear`], in double precision.
+/// Decodes as [`srgb_to_linear`], in double precision.
 pub fn srgb_to_linear_f64(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

@@ -1,4 +1,4 @@
-//! What every renderer, GPU or CPU, takes and gives back.
+//! The contract of every renderer, GPU or CPU.
 
 mod decision;
 mod observer;
@@ -25,7 +25,7 @@ pub enum DeviceChoice {
     /// Discrete, integrated, then software Vulkan; with no adapter at all, the CPU integrator.
     #[default]
     Auto,
-    /// As `Auto`, but the CPU integrator is no way out.
+    /// Chooses as `Auto` does, without a fallback to the CPU integrator.
     Gpu,
     /// The reference integrator.
     Cpu,
@@ -84,12 +84,12 @@ impl<'a> Batch<'a> {
         taking_part * samples.len() as u64
     }
 
-    /// Whether there may be pixels that take no part.
+    /// True if there may be pixels that take no part.
     pub fn selects(&self) -> bool {
         self.selection.is_some() || self.columns.is_some()
     }
 
-    /// Whether a pixel of the film, counted from its first row's first, takes part, in a film of this width.
+    /// True if a pixel of the film, counted from its first row's first, takes part, in a film of this width.
     pub fn takes_part(&self, pixel: usize, width: u32) -> bool {
         let column = (pixel % width as usize) as u32;
         self.columns.is_none_or(|(first, end)| (first..end).contains(&column))
@@ -97,14 +97,14 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// What a render did, for `--stats`.
+/// The report of a render, for `--stats`.
 #[derive(Debug, Clone, Default)]
 pub struct RenderReport {
     /// The device as people call it, for example `llvmpipe (LLVM 15.0.6, 256 bits)` or `CPU reference`.
     pub device: String,
     /// The name of a graphics device's hierarchy, `bvh4` or `ray_query`; None where geometry is code.
     pub hierarchy: Option<&'static str>,
-    /// What the plan decided for a graphics device, and why; empty for the CPU.
+    /// The plan's decisions for a graphics device, with reasons; empty for the CPU.
     pub decisions: Vec<Decision>,
     /// The parts of the shaders that a graphics device's kernels hold.
     pub compiled_in: Vec<&'static str>,
@@ -170,10 +170,11 @@ pub trait Renderer {
     /// Makes another frame of the scene ready in place of this one, on the same device and with the kernels that still fit.
     ///
     /// # Errors
-    /// [`RenderError`] as for the first frame. There is no renderer any more then.
+    /// The errors of the first frame. There is no renderer any more then.
     fn with_scene(self: Box<Self>, scene: &Scene, change: Change) -> Result<Box<dyn Renderer>, RenderError>;
 
-    /// Whether samples go over all of a film of this size together. If not, its bands are finished one after the other, for want of memory.
+    /// True if samples go over all of a film of this size together. If not, its bands are finished one after
+    /// the other, for want of memory.
     fn holds_whole_film(&self) -> bool;
 
     /// Changes the samples per pixel for which samplers with strata lay them out from what the scene says. Nothing is built or compiled
@@ -191,7 +192,8 @@ pub trait Renderer {
         self.render_batch(&Batch::of(request), observer, on_band)
     }
 
-    /// As [`Renderer::render`], with random numbers and numbers of samples that the scene does not decide.
+    /// Renders as [`Renderer::render`] does, with random numbers and numbers of samples that the scene does
+    /// not decide.
     fn render_batch(
         &mut self,
         batch: &Batch<'_>,
@@ -201,8 +203,8 @@ pub trait Renderer {
         self.render_into(batch, observer, &mut on_band)
     }
 
-    /// As [`Renderer::render_batch`], into a sink that may take states of the batch: while it is rendered, when the observer stops it, and
-    /// when the device is lost, but not where the deadline ends it.
+    /// Renders as [`Renderer::render_batch`] does, into a sink that may take states of the batch: while it is
+    /// rendered, when the observer stops it, and when the device is lost, but not where the deadline ends it.
     fn render_into(
         &mut self,
         batch: &Batch<'_>,

@@ -1,4 +1,5 @@
-//! What the pictures of a schedule say: errors with intervals, slopes, floors, and what one setting is worth against another.
+//! The results of a schedule of renders: errors with intervals, slopes, floors, and one setting's efficiency
+//! against another's.
 
 use serde::Serialize;
 
@@ -22,7 +23,7 @@ pub struct Level {
     /// The reference's own error is taken off.
     pub mse: Interval,
     pub relmse: Interval,
-    /// Of the render alone.
+    /// Time of the render alone.
     pub seconds: Spread,
 }
 
@@ -30,15 +31,15 @@ pub struct Level {
 #[derive(Debug, Clone, Serialize)]
 pub struct Trend {
     pub metric: Metric,
-    /// Of log error over log samples, a floor taken off: −1 for independent samples. None where fewer than two levels stand clear of the
-    /// reference's error.
+    /// Slope of log error over log samples, with a floor taken off: −1 for independent samples. None where
+    /// fewer than two levels stand clear of the reference's error.
     pub slope: Option<Interval>,
     /// Levels that the slope was fitted to.
     pub fitted_levels: usize,
     pub floor: Floor,
 }
 
-/// What of the error no number of samples takes away.
+/// The part of the error that no number of samples takes away.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Floor {
     /// Squared bias; may be negative by chance.
@@ -76,7 +77,7 @@ pub struct Comparison {
     pub time_at_equal_samples: Ratio,
     /// At the last level.
     pub error_at_equal_samples: Ratio,
-    /// Of 1 / (error × time), at the last level.
+    /// The ratio of 1 / (error × time), at the last level.
     pub efficiency: Ratio,
     /// None where the curves share no time.
     pub error_at_equal_time: Option<RatioAt>,
@@ -187,7 +188,7 @@ fn least_squares_slope(points: &[(f64, f64)]) -> Option<f64> {
     (points.len() > 1 && slope.is_finite()).then_some(slope)
 }
 
-/// What `setting` is worth against `baseline`.
+/// The efficiency of `setting` relative to `baseline`.
 pub fn compare_settings(setting: &Observations, baseline: &Observations, reference: &Reference, metric: Metric) -> Comparison {
     let replications = setting.replications().min(baseline.replications());
     let last = setting.by_level.len().saturating_sub(1);

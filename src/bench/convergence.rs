@@ -19,7 +19,7 @@ use crate::output::Image;
 use crate::renderer::Observer;
 use crate::scene::{self, Scene};
 
-/// What is wanted.
+/// The options of a convergence measurement.
 #[derive(Debug, Clone)]
 pub struct ConvergenceOptions {
     pub axes: Axes,
@@ -28,11 +28,11 @@ pub struct ConvergenceOptions {
     pub reference: Option<PathBuf>,
     /// Samples per pixel of a reference that is made.
     pub reference_spp: u32,
-    /// Where references that were made are kept.
+    /// The folder of references that were rendered.
     pub store: PathBuf,
 }
 
-/// What came out for one scene.
+/// The results of one scene.
 #[derive(Debug, Clone, Serialize)]
 pub struct SceneConvergence {
     pub scene: String,
@@ -53,7 +53,7 @@ pub struct SceneConvergence {
     pub reference_picture: Image,
 }
 
-/// What errors were measured against.
+/// The reference that errors were measured against.
 #[derive(Debug, Clone, Serialize)]
 pub struct ReferenceSummary {
     pub origin: String,
@@ -83,7 +83,7 @@ pub struct SettingConvergence {
 #[derive(Debug, Clone, Serialize)]
 pub struct EqualTimePicture {
     pub spp: u32,
-    /// What it really took.
+    /// Time that the render took.
     pub seconds: f64,
     pub mse: f64,
     pub relmse: f64,
@@ -94,7 +94,7 @@ pub struct EqualTimePicture {
 /// Measures one scene; `say` is told what is going on.
 ///
 /// # Errors
-/// What devices and files report, a reference that does not fit, and [`BenchError::Interrupted`] where nothing can be said yet.
+/// Errors of devices and files, a reference that does not fit, and [`BenchError::Interrupted`] where nothing can be said yet.
 pub fn measure(
     scene: &Scene,
     options: &ConvergenceOptions,

@@ -11,8 +11,9 @@ pub struct Feature {
     pub(super) room: Room,
     /// Its switches can stand in a kernel of the plain room without changing that room's picture.
     can_stand_unused: bool,
-    /// It needs the hierarchy: the plain room is then measured with one as well. What does not move may still stand outside of it, where few
-    /// shapes are faster, so that the two differ by more than the feature.
+    /// True if the feature needs the hierarchy: the plain room is then measured with one as well. Shapes that
+    /// do not move may still stand outside of it, where few shapes are faster, so that the two differ by more
+    /// than the feature.
     hierarchy: bool,
 }
 
@@ -21,7 +22,8 @@ impl Feature {
         Self { name, room, can_stand_unused: true, hierarchy: false }
     }
 
-    /// What is made in another way, such as a random number: its switches without it make another picture.
+    /// A feature that replaces another way, such as a random number: its switches without it make another
+    /// picture.
     fn another_way(name: &'static str, room: Room) -> Self {
         Self { can_stand_unused: false, ..Self::new(name, room) }
     }
@@ -35,7 +37,7 @@ impl Feature {
         }
     }
 
-    /// What it brings in: the switches of its room that are not among those of the plain one.
+    /// The switches that the feature brings in: those of its room that are not among those of the plain one.
     pub(super) fn switches(&self, plain: &BTreeSet<&'static str>, used: &BTreeSet<&'static str>) -> Vec<&'static str> {
         if self.can_stand_unused { used.difference(plain).copied().collect() } else { Vec::new() }
     }

@@ -1,4 +1,4 @@
-//! What a feature costs: used, and only compiled in.
+//! The cost of a feature: used, and only compiled in.
 //!
 //! Every feature is measured in a room beside the same room without it, in turn. *Compiled in* renders the plain room by kernels that hold
 //! the feature's code though nothing there needs it: what "a scene compiles only what it uses" saves. *Used* renders a room that has it.
@@ -17,7 +17,7 @@ use crate::plan::PlanOptions;
 use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;
 
-/// What is wanted.
+/// The options of a measurement of features.
 #[derive(Debug, Clone)]
 pub struct FeatureOptions {
     pub device: DeviceChoice,
@@ -38,7 +38,7 @@ pub struct Variant {
     pub time: Ratio,
 }
 
-/// What one feature costs.
+/// The cost of one feature.
 #[derive(Debug, Clone, Serialize)]
 pub struct FeatureCost {
     pub feature: String,
@@ -54,7 +54,7 @@ pub struct FeatureCost {
 /// Measures one feature.
 ///
 /// # Errors
-/// What the device reports, and [`BenchError::Interrupted`].
+/// Errors of the device, and [`BenchError::Interrupted`].
 pub fn measure(
     feature: &Feature,
     options: &FeatureOptions,
@@ -96,7 +96,7 @@ pub fn measure(
 
 /// A room made ready, and its runs.
 struct Candidate<'a> {
-    /// Those of its kernels.
+    /// The switches of its kernels.
     switches: BTreeSet<&'static str>,
     subject: SceneSubject<'a>,
     first_picture_seconds: f64,

@@ -1,9 +1,9 @@
-//! What grows in a measurement of speed, and how far.
+//! Scenes of growing size for measurements of speed.
 
 use crate::choice::choices;
 
 choices! {
-    /// What is measured side by side: one thing grows, the rest stays.
+    /// A series of measurements: one quantity grows, the rest stays.
     pub enum Growth {
         /// Nothing grows: scenes as they are.
         Scenes = "scenes",
@@ -23,7 +23,7 @@ choices! {
 }
 
 impl Growth {
-    /// What the size counts, as a heading.
+    /// The heading of the size.
     pub fn label(self) -> &'static str {
         match self {
             Self::Scenes => "scenes",

@@ -1,4 +1,4 @@
-//! What repeated measurements say: an estimate, and how far chance alone could have moved it.
+//! The result of repeated measurements: an estimate, and how far chance alone could have moved it.
 
 use serde::Serialize;
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
@@ -18,7 +18,7 @@ pub struct Interval {
     pub confidence: f64,
 }
 
-/// What an interval says of a value, as a ratio's of 1.
+/// The position of an interval relative to a value, such as 1 for a ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -33,7 +33,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// As people read it.
+    /// The verdict in words.
     pub fn label(self) -> &'static str {
         match self {
             Self::Less => "less",
@@ -69,7 +69,7 @@ impl Interval {
         Self { estimate: median(&sorted), low: sorted[left_out], high: sorted[count - 1 - left_out], confidence }
     }
 
-    /// Where `value` lies.
+    /// The position of the interval relative to `value`.
     pub fn verdict(&self, value: f64) -> Verdict {
         if self.confidence < CONFIDENCE {
             Verdict::TooFewRuns
@@ -82,7 +82,7 @@ impl Interval {
         }
     }
 
-    /// The same moved by `offset`, whose own standard error widens it.
+    /// The interval moved by `offset`, whose own standard error widens it.
     pub fn shifted(self, offset: f64, standard_error: f64) -> Self {
         let widen = |half: f64| half.hypot(1.96 * standard_error);
         let estimate = self.estimate + offset;
@@ -190,7 +190,8 @@ mod tests {
         assert_eq!(Interval::of_mean(&[2.0]).verdict(1.0), Verdict::InsideTheNoise);
     }
 
-    /// Of intervals at 95 % about 95 % hold the truth, whatever the distribution; the bound is four standard deviations of a binomial count.
+    /// About 95 % of intervals at 95 % hold the truth, whatever the distribution; the bound is four standard
+    /// deviations of a binomial count.
     #[test]
     fn intervals_hold_the_truth_as_often_as_they_say() {
         let trials = 2000;

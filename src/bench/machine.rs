@@ -1,4 +1,4 @@
-//! What a measurement was made on, and when.
+//! The machine and the time of a measurement.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -19,7 +19,7 @@ pub struct Machine {
     pub threads: usize,
     /// Devices that were used, with their drivers.
     pub devices: Vec<String>,
-    /// As it was typed.
+    /// The command as it was typed.
     pub command: String,
 }
 

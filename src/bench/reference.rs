@@ -11,8 +11,7 @@ use crate::compare::Moments;
 use crate::compare::relative_weight;
 use crate::film::Band;
 use crate::output::{
-    AtomicFile, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, as_own, read_image,
-    read_picture,
+    AtomicFile, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image, read_picture,
 };
 use crate::scene::{self, Scene};
 
@@ -30,7 +29,7 @@ pub struct OwnError {
     pub relmse_standard_error: f64,
 }
 
-/// What errors are measured against.
+/// A reference that errors are measured against.
 #[derive(Debug, Clone)]
 pub struct Reference {
     pub image: Image,
@@ -38,7 +37,7 @@ pub struct Reference {
     pub own_error: Option<OwnError>,
     /// Samples per pixel, where they are known.
     pub spp: Option<u32>,
-    /// Where it comes from, for people.
+    /// Its origin, for people.
     pub origin: String,
     /// Properties of its pixels that its file states and nothing uses.
     pub warnings: Vec<String>,
@@ -67,7 +66,7 @@ impl Reference {
     /// Renders [`PARTS`] pictures and takes their mean; at least `spp` samples per pixel in all.
     ///
     /// # Errors
-    /// What the subject reports.
+    /// Errors of the subject.
     pub fn render(subject: &mut dyn Subject, spp: u32) -> Result<Self, BenchError> {
         let part_spp = spp.div_ceil(PARTS).max(1);
         let mut size = [0, 0];
@@ -86,7 +85,7 @@ impl Reference {
         Ok(Self { image, own_error, spp: Some(part_spp * PARTS), origin: "rendered".to_owned(), warnings: Vec::new() })
     }
 
-    /// What to subtract from a measured error, and how well that is known: zeros where nothing is known.
+    /// The part to subtract from a measured error, and its uncertainty: zeros where nothing is known.
     pub fn correction(&self) -> OwnError {
         self.own_error.unwrap_or_default()
     }
@@ -115,7 +114,7 @@ pub struct Store {
     pub folder: PathBuf,
 }
 
-/// What lies beside a stored picture.
+/// The record beside a stored picture.
 #[derive(Serialize, Deserialize)]
 struct Record {
     /// Everything that decides the picture, in words.
@@ -134,7 +133,7 @@ impl Store {
     pub fn find(&self, scene: &Scene, device: &str, spp: u32) -> Option<Reference> {
         let (made_of, paths) = self.place(scene, device, spp);
         let record: Record = serde_json::from_slice(&std::fs::read(&paths[1]).ok()?).ok()?;
-        let image = as_own(&paths[0], || read_image(&paths[0])).ok()?;
+        let image = read_image(&paths[0]).ok()?;
         let fits = record.made_of == made_of && [image.width, image.height] == scene.film.size;
         fits.then(|| Reference {
             image,
@@ -148,7 +147,7 @@ impl Store {
     /// Keeps a reference that was rendered; says where.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn keep(&self, scene: &Scene, device: &str, spp: u32, reference: &Reference) -> Result<PathBuf, BenchError> {
         let write_failure = |source| OutputError::Write { path: self.folder.clone(), source };
         std::fs::create_dir_all(&self.folder).map_err(write_failure)?;
@@ -160,7 +159,7 @@ impl Store {
         Ok(picture)
     }
 
-    /// What decides the picture, and where it and its record lie.
+    /// The text of all that decides the picture, and the places of it and its record.
     fn place(&self, scene: &Scene, device: &str, spp: u32) -> (String, [PathBuf; 2]) {
         let made_of = format!(
             "{} {:?} {:?} {PARTS} parts of {} {device} {}",

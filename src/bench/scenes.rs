@@ -99,7 +99,7 @@ pub fn panel(emitting: u32) -> Result<Scene, SceneError> {
     scene.materials.push(material("bright", Some(Emission { radiance: ColorInput::grey(radiance), two_sided: false })));
     let mut mesh = grid(100, 50, |u, v| Vec3::new(4.0 * u - 2.0, 3.0, 2.0 * v - 1.0));
     mesh.uvs.clear();
-    // Those that emit are spread over the panel, so that the shadows stay alike.
+    // Emitting faces are spread over the panel, so that the shadows stay alike.
     let count = mesh.faces.len() as u64;
     let bright = |face: u64| (face * u64::from(emitting)) / count != ((face + 1) * u64::from(emitting)) / count;
     mesh.face_materials = (0..count).map(|face| first + usize::from(bright(face))).collect();
@@ -143,7 +143,7 @@ pub const TREE_TRIANGLES: usize = 10_000;
 pub fn forest(trees: u32) -> Result<Scene, SceneError> {
     let mut scene = load_toml_str(FOREST, "forest", Path::new(""))?;
     let height = |x: f64, z: f64| 3.0 * (0.05 * x).sin() * (0.04 * z + 1.0).cos();
-    // As many to the unit of area whatever their number.
+    // Trees per unit of area stay as many, whatever their number.
     let side = 2.4 * f64::from(trees.max(1)).sqrt();
     let ground = grid(200, 200, |u, v| {
         let (x, z) = (1.1 * side * (f64::from(u) - 0.5), 1.1 * side * (0.5 - f64::from(v)));

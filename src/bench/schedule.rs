@@ -45,7 +45,7 @@ pub struct Observation {
     pub seconds: f64,
 }
 
-/// What was seen of one setting.
+/// The observations of one setting.
 #[derive(Debug, Clone)]
 pub struct Observations {
     /// By level, then by replication.
@@ -93,10 +93,11 @@ pub fn by_brightness(reference: f64) -> f64 {
 /// Makes every picture of the schedule. Settings take turns at every level, and who begins changes, so that all meet the machine in the same
 /// state; one picture of each is made before and thrown away. `step` is called before each picture with what it is.
 ///
-/// Where a subject is interrupted and two replications are complete, what there is comes back; the flag says so.
+/// Renders the schedule. If a subject is interrupted and two replications are complete, the result holds
+/// these, and the flag says so.
 ///
 /// # Errors
-/// What subjects report, and a reference of another size.
+/// Errors of subjects, and a reference of another size.
 pub fn observe_schedule(
     subjects: &mut [Box<dyn Subject + '_>],
     reference: &Reference,
@@ -133,7 +134,7 @@ pub fn observe_schedule(
     Ok((all, false))
 }
 
-/// Where in the measurement a picture stands.
+/// The position of a picture in the measurement.
 #[derive(Clone, Copy)]
 struct Place {
     setting: usize,

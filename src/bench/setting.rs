@@ -11,7 +11,7 @@ pub struct Axes {
     pub devices: Vec<DeviceChoice>,
     /// A list for each setting that is tried.
     pub settings: Vec<Vec<Assignment>>,
-    /// Whether pictures are denoised; empty: they are not.
+    /// Settings of denoising, on and off; empty means off.
     pub denoise: Vec<bool>,
 }
 

@@ -16,7 +16,7 @@ use crate::plan::{PlanOptions, StageMode, memory};
 use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;
 
-/// What is wanted.
+/// The options of a measurement of speed.
 #[derive(Debug, Clone)]
 pub struct SpeedOptions {
     pub device: DeviceChoice,
@@ -69,7 +69,7 @@ pub struct StageShare {
     pub dispatches: u32,
 }
 
-/// What one scene at one size needed.
+/// The speed of one scene at one size.
 #[derive(Debug, Clone, Serialize)]
 pub struct Speed {
     pub device: String,
@@ -101,7 +101,7 @@ pub struct Speed {
 #[derive(Debug, Clone, Serialize)]
 pub struct SpeedRow {
     pub scene: String,
-    /// What grew, counted; none for scenes as they are.
+    /// The quantity that grew; None for scenes as they are.
     pub count: Option<u64>,
     pub width: u32,
     pub height: u32,
@@ -142,7 +142,7 @@ struct Candidate<'a> {
     runs: Vec<Timed>,
 }
 
-/// What one run says.
+/// The result of one run.
 struct Timed {
     seconds: f64,
     samples: f64,
@@ -151,7 +151,7 @@ struct Timed {
     compile_seconds: f64,
 }
 
-/// What the device itself says of its stages.
+/// The device's own times of its stages.
 #[derive(Default)]
 struct Profile {
     stage_times: Vec<StageShare>,
@@ -161,7 +161,7 @@ struct Profile {
 /// Measures one table: every entry is made ready, then all take turns. Scenes that do not fit the device say so in their row.
 ///
 /// # Errors
-/// What devices report but for a scene that does not fit, and [`BenchError::Interrupted`].
+/// Errors of devices but for a scene that does not fit, and [`BenchError::Interrupted`].
 pub fn measure(
     growth: Growth,
     own: &[Scene],
@@ -193,7 +193,7 @@ pub fn measure(
     Ok(SpeedTable { growth, rows })
 }
 
-/// What a row will render.
+/// The renders of a row.
 struct Planned {
     scene: Scene,
     spp: u32,

@@ -1,4 +1,5 @@
-//! What is measured: something that renders a picture with a seed and a number of samples, and says how long it took.
+//! A subject of measurements: it renders a picture with a seed and a number of samples, and reports how long
+//! it took.
 
 use std::borrow::Cow;
 
@@ -43,7 +44,7 @@ pub enum BenchError {
 #[derive(Debug, Clone)]
 pub struct Run {
     pub picture: Image,
-    /// Of the render alone: without packing the scene and compiling.
+    /// Time of the render alone, without packing the scene and compiling.
     pub seconds: f64,
     /// Camera, bounce and shadow rays.
     pub rays: u64,
@@ -61,14 +62,14 @@ pub trait Subject {
     /// Renders samples 0 to `spp` of every pixel with random numbers of this seed.
     ///
     /// # Errors
-    /// What the renderer reports, and [`BenchError::Interrupted`].
+    /// Errors of the renderer, and [`BenchError::Interrupted`].
     fn render(&mut self, seed: u32, spp: u32) -> Result<Run, BenchError>;
 }
 
 /// Devices that are open, so that settings share them.
 #[derive(Default)]
 pub struct Devices {
-    /// What they are opened for.
+    /// The options that devices are opened for.
     options: PlanOptions,
     open: Vec<(DeviceChoice, Option<Device>)>,
 }
@@ -107,10 +108,10 @@ impl Devices {
         self.prepare_layer(scene, choice, None)
     }
 
-    /// As [`Devices::prepare`], for a layer in the place of the picture.
+    /// Prepares a layer in the place of the picture, as [`Devices::prepare`] prepares the picture.
     ///
     /// # Errors
-    /// As [`Devices::prepare`].
+    /// The errors of [`Devices::prepare`].
     pub fn prepare_layer(
         &mut self,
         scene: &Scene,

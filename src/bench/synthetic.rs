@@ -16,7 +16,7 @@ pub struct Synthetic {
     pub overhead: f64,
     /// Relative standard deviation of a run's time.
     pub time_noise: f64,
-    /// What the machine does to times; shared between subjects that run in turn.
+    /// The machine's present factor of run times, shared between subjects that run in turn.
     pub machine: std::rc::Rc<std::cell::Cell<f64>>,
     pub clock: SplitMix64,
 }

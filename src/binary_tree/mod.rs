@@ -27,7 +27,8 @@ pub fn build(boxes: &[Aabb], parameters: &BvhBuildParams) -> Bvh2 {
     tree
 }
 
-/// What obvhs tries to move at a time, one after the other, as shares of a ratio of all nodes.
+/// The numbers of nodes that obvhs tries to move at a time, one after the other, as shares of a ratio of all
+/// nodes.
 const SHARES: [f32; 4] = [1.0, 0.6, 0.4, 0.3];
 /// obvhs looks for better places by a stack of 192 entries at least, and panics where a deeper tree needs more.
 const DEEPEST_TO_IMPROVE: usize = 190;

@@ -8,8 +8,8 @@
 //! lay along an axis; it does so in a tree built anew too.) What is squashed or drawn out has other neighbours: where the map from the pose for
 //! reference stretches one direction more than [`UNEVEN`] times as much as another, the part's tree is built of the boxes as they are.
 //!
-//! What comes out depends on the boxes and the poses for reference alone. [`KeptTrees`] remembers what was built of the same boxes before, and so
-//! saves time and changes nothing.
+//! The result depends on the boxes and the poses for reference alone. [`KeptTrees`] remembers what was built
+//! of equal boxes before, and so saves time and changes nothing.
 
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hasher};
@@ -27,12 +27,12 @@ pub const UNEVEN: f64 = 2.0;
 /// The tree over all parts goes down to so many boxes of a part: enough for it to tell apart what of two parts is near, and a hundredth of the nodes.
 const TREELET: usize = 64;
 
-/// What is moved as a whole.
+/// A part that is moved as a whole.
 #[derive(Debug, Clone, Default)]
 pub struct Part {
     /// Places of its boxes among all.
     pub members: Vec<u32>,
-    /// Where its tree is built; None: as the boxes are.
+    /// The pose in which its tree is built; None for the boxes as they are.
     pub reference: Option<Pose>,
 }
 
@@ -82,7 +82,7 @@ impl KeptTrees {
     }
 }
 
-/// What builds a tree with a box in each leaf.
+/// A function that builds a tree with a box in each leaf.
 pub type Build<'b> = &'b (dyn Fn(&[Aabb]) -> Bvh2 + Sync);
 
 fn bits(bounds: &Aabb) -> impl Iterator<Item = u32> {

@@ -1,4 +1,4 @@
-//! What can be typed, as clap reads it.
+//! The arguments of every command, as clap reads them.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -192,7 +192,7 @@ impl AccessArguments {
     }
 }
 
-/// What ends a render before its last sample, and where its samples go.
+/// The conditions that end a render before its last sample, and the choice of pixels that get more samples.
 #[derive(Debug, Default, Args)]
 pub struct GoalArguments {
     /// Stop after this time since the program's start, with a whole picture of fewer samples per pixel
@@ -206,7 +206,7 @@ pub struct GoalArguments {
     pub adaptive: bool,
 }
 
-/// What is kept of a render that breaks off.
+/// How a render that breaks off is saved and continued.
 #[derive(Debug, Default, Args)]
 pub struct CheckpointArguments {
     /// Save the state of the render in FILE.checkpoint beside the first picture, every so many seconds and where the render breaks off; the end removes it
@@ -281,7 +281,8 @@ pub struct CompareArguments {
     /// Show this metric only, and judge by it
     #[arg(long, value_parser = by_name::<Metric>())]
     pub metric: Option<Metric>,
-    /// What still counts as equal: the metric at most this (psnr: at least); without --metric the largest difference of a value
+    /// Largest metric that still counts as equal (psnr: the smallest); without --metric the largest
+    /// difference of a value
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = parse_tolerance)]
     pub tolerance: Option<f64>,
     /// Print JSON

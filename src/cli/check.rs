@@ -29,13 +29,13 @@ const MOST_GUESSING: f64 = 3.0;
 /// Most frames of a scene with keyframes that are looked at, but for one.
 const MOST_FRAMES: f64 = 500.0;
 
-/// What `--json` prints of a scene that can be read.
+/// The JSON that `--json` prints of a scene that can be read.
 #[derive(Serialize)]
 struct Report<'a> {
     valid: bool,
     errors: [Mistake<'a>; 0],
     warnings: &'a [String],
-    /// What of an imported file has no effect, and what has something else in its place.
+    /// Parts of an imported file that have no effect, and parts that something else stands in for.
     #[serde(flatten)]
     import: &'a ImportReport,
     #[serde(flatten)]
@@ -48,7 +48,7 @@ struct Report<'a> {
     cpu_host_bytes: u64,
     /// That the CPU would take for the picture, by a few samples.
     cpu_seconds: f64,
-    /// It takes longer: paths meet so much that they were given up.
+    /// True where the estimate is a lower bound: paths meet so much that counting it was given up.
     cpu_seconds_is_least: bool,
     /// Why no trial run chose what the settings leave open, where paths take too much work for one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -63,7 +63,7 @@ struct PlanReport<'a> {
     compiled_in: Vec<&'static str>,
 }
 
-/// What it prints of one that cannot.
+/// The JSON that `--json` prints of a scene that cannot be read.
 #[derive(Serialize)]
 struct Refusal<'a> {
     valid: bool,
@@ -179,7 +179,7 @@ fn check_frames(scene: &Scene) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What an import left, a line for each kind of thing; nothing where it is exact.
+/// The losses of an import, a line for each kind; empty where the import is exact.
 fn listed(report: &ImportReport) -> String {
     let mut text = String::new();
     for (heading, items) in [("dropped", &report.dropped), ("approximated", &report.approximated)] {
@@ -218,7 +218,7 @@ fn usual_device(options: &PlanOptions) -> Result<(String, DeviceLimits), Failure
     Ok((adapter.get_info().name, limits))
 }
 
-/// What a render would plan, and the scene with complete settings.
+/// The plan of a render, and the scene with complete settings.
 fn usual_plan<'a>(scene: &'a Scene, limits: &DeviceLimits, options: &'a PlanOptions) -> Result<(Plan, Settled<'a>), Failure> {
     let mut trees = KeptTrees::default();
     let mut fitting = Fitting::new(scene, Some(limits), options, &mut trees)?;

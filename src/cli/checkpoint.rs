@@ -19,11 +19,11 @@ pub struct Kept {
     pub checkpoint: Option<Checkpoint>,
     /// Samples that an earlier render finished, over all pixels.
     pub resumed_samples: u64,
-    /// What became of the last state.
+    /// The place of the last state, or why it could not be saved.
     saved: Option<Result<PathBuf, OutputError>>,
 }
 
-/// Where a state is asked for there is a file to put it beside.
+/// Checks that there is a file to put a state beside, if one is asked for.
 ///
 /// # Errors
 /// A usage error.
@@ -37,7 +37,7 @@ pub fn check(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat
 }
 
 impl CheckpointArguments {
-    /// Whether states are kept.
+    /// True if states are saved.
     pub fn is_asked_for(&self) -> bool {
         self.checkpoint.is_some() || self.resume
     }
@@ -53,7 +53,8 @@ fn first_file(outputs: &[(PathBuf, PictureFormat)]) -> Option<&Path> {
     outputs.iter().map(|(path, _)| path.as_path()).find(|path| !is_stdout(path))
 }
 
-/// Whether every picture stands in its place, finished and of this render. `shown`: what is known of the files beside the render.
+/// True if every picture stands in its place, finished and of this render. `shown` is what is known of the
+/// files beside the render.
 pub fn all_are_finished(
     outputs: &[(PathBuf, PictureFormat)],
     (scene, bulk): (&Scene, Option<&BulkDigest>),
@@ -111,7 +112,7 @@ fn begin(
 /// The checkpoint of a layer, if there shall be one.
 ///
 /// # Errors
-/// As [`Kept::begin`].
+/// The errors of [`Kept::begin`].
 pub fn of_layer(
     arguments: &CheckpointArguments,
     (renderer, layer): (&Renderer, KernelLayer),

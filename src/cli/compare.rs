@@ -21,7 +21,7 @@ const PAGE_TILE: u32 = 8;
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// What `--json` prints.
+/// The JSON that `--json` prints.
 #[derive(Serialize)]
 struct Verdict<'a> {
     equal: bool,
@@ -97,7 +97,7 @@ fn tell_of_denoising(path: &Path) {
     }
 }
 
-/// What to know of a comparison of a render with a preview.
+/// A note on comparing a render with a preview.
 fn different_kinds(arguments: &CompareArguments) -> Option<String> {
     let (a, b) = (&arguments.picture, &arguments.reference);
     let (linear, preview) = match (PictureKind::of(a)?, PictureKind::of(b)?) {

@@ -10,11 +10,8 @@ use gpt::merge::MergeError;
 use gpt::output::{OutputError, ReadError};
 use gpt::render::checkpoint::CheckpointError;
 use gpt::renderer::RenderError;
-use miette::Diagnostic;
 
-use super::scene_error::SceneDiagnostic;
-
-/// What a run came to; other programs rely on the numbers.
+/// The outcome of a run; other programs rely on the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
     Done = 0,
@@ -30,7 +27,7 @@ pub enum Exit {
     NonFinite = 6,
     /// `compare`, `test` or `verify` found a difference.
     Difference = 7,
-    /// What was rendered is saved.
+    /// The run was interrupted, and its samples are saved.
     Interrupted = 130,
 }
 
@@ -75,17 +72,12 @@ impl From<Exit> for ExitCode {
 }
 
 /// Everything that ends a command with one error message.
-#[derive(Debug, thiserror::Error, Diagnostic)]
+#[derive(Debug, thiserror::Error)]
 pub enum Failure {
     #[error("{message}")]
-    Usage {
-        message: String,
-        #[help]
-        help: Option<String>,
-    },
+    Usage { message: String, help: Option<String> },
     #[error(transparent)]
-    #[diagnostic(transparent)]
-    Scene(SceneDiagnostic),
+    Scene(#[from] SceneError),
     #[error(transparent)]
     Picture(#[from] ReadError),
     #[error(transparent)]
@@ -115,12 +107,6 @@ impl Failure {
     /// A usage error without further advice.
     pub fn usage(message: impl Into<String>) -> Self {
         Self::Usage { message: message.into(), help: None }
-    }
-}
-
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
-        Self::Scene(SceneDiagnostic::from(error))
     }
 }
 

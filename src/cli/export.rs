@@ -28,10 +28,9 @@ pub fn run(arguments: &ExportArguments) -> Result<Exit, Failure> {
         let items = written.report.dropped.iter().chain(&written.report.approximated);
         items.for_each(|item| terminal::warn(&format!("{}: {}: {}", item.place, item.what, item.instead)));
     }
-    outputs::check(
-        written.files.iter().map(|(path, _)| path.as_path()).filter(|path| path.exists()).chain([target.as_path()]),
-        None,
-    )?;
+    let paths = || written.files.iter().map(|(path, _)| path.as_path()).chain([target.as_path()]);
+    outputs::check(paths().filter(|path| path.exists() || path == target), None)?;
+    outputs::check_unread(paths(), &options.log)?;
     for (path, bytes) in &written.files {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;

@@ -20,13 +20,13 @@ pub enum FilmName {
 
 #[derive(Debug, Default, Args)]
 pub struct FilmArguments {
-    /// Where the film's sums live on a graphics device
+    /// Place of the film's sums on a graphics device
     #[arg(long, value_name = "WHERE", default_value = "auto")]
     film: FilmName,
 }
 
 impl FilmArguments {
-    /// What a plan is asked for; None leaves it the choice.
+    /// The storage that a plan is asked for; None leaves the choice to the plan.
     pub fn storage(&self) -> Option<FilmStorage> {
         match self.film {
             FilmName::Auto => None,
@@ -35,7 +35,7 @@ impl FilmArguments {
         }
     }
 
-    /// As [`FilmArguments::storage`], for a command that may be told to go without a graphics device.
+    /// Does the work of [`FilmArguments::storage`] for a command that may run without a graphics device.
     ///
     /// # Errors
     /// A usage error where it is, and a place is asked for.

@@ -15,7 +15,7 @@ const SAMPLES: u32 = 4;
 /// Shows it where somebody watches a picture with layers. What rendered it is ready for the rest.
 ///
 /// # Errors
-/// What the device and the temporary files report.
+/// Errors of the device and the temporary files.
 pub fn show(
     (live, watching): (&Live, &Watching<'_>),
     ready: Ready,

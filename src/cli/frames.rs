@@ -12,7 +12,8 @@ use super::pictures::is_stdout;
 const MOST_FRAMES: usize = 1_000_000;
 /// Largest number of a frame.
 const LAST_FRAME: u32 = 100_000_000;
-/// What stands for a frame's number in the name of a file; as many of them as the number has digits at least.
+/// Stands for a frame's number in the name of a file. The number has at least as many digits as there are of
+/// these.
 const PLACE: char = '#';
 
 /// Which frames of the scene's keyframes are rendered.
@@ -43,7 +44,7 @@ pub struct Span {
     pub count: usize,
 }
 
-/// What is rendered of a scene.
+/// The moment of a scene that is rendered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrameTime {
     /// The scene as it is without a frame.
@@ -54,7 +55,7 @@ pub enum FrameTime {
 }
 
 impl FrameTime {
-    /// What stands for it in the names of files.
+    /// The number that names its files.
     pub fn number(self) -> Option<u32> {
         match self {
             Self::Frame(number) => Some(number),
@@ -73,12 +74,12 @@ impl FrameTime {
 }
 
 impl FrameArguments {
-    /// Whether several frames may be asked for, so that each needs files of its own.
+    /// True if several frames may be asked for, so that each needs files of its own.
     pub fn is_sequence(&self) -> bool {
         self.frames.is_some()
     }
 
-    /// What is to be rendered of a scene with these keyframes.
+    /// The moments that are rendered of a scene with these keyframes.
     ///
     /// # Errors
     /// A usage error where there are none.
@@ -112,7 +113,7 @@ impl FrameArguments {
         self.frame.or_else(|| self.frames.as_ref().and_then(|FrameList(frames)| frames.first().copied()))
     }
 
-    /// Whether the files of all frames have names of their own.
+    /// Checks that the files of all frames have names of their own.
     ///
     /// # Errors
     /// A usage error that names the first file that has not.
@@ -130,7 +131,7 @@ impl FrameArguments {
     }
 }
 
-/// Whether a file's name has a place for the number of a frame.
+/// True if a file's name has a place for the number of a frame.
 pub fn has_place(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().contains(PLACE))
 }
@@ -171,7 +172,7 @@ impl FrameList {
         Ok(Self(frames))
     }
 
-    /// As few words as say the same: runs with one step between them.
+    /// The shortest list that names these frames: runs with one step between their numbers.
     pub fn words(frames: &[u32]) -> String {
         let mut parts: Vec<String> = Vec::new();
         let mut rest = frames;

@@ -22,7 +22,7 @@ pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
     if let Ok(SceneSource::Model(_)) = SceneSource::parse(Some(arguments.scene.as_os_str())) {
         // The scene that `gpt render` makes of a model: framed, with a ground and a lamp.
         let scene = load::load_with(Some(arguments.scene.as_os_str()), &options)?;
-        scene_writer::save_scene(&scene, &target)?;
+        scene_writer::save_scene_beside(&scene, &target, &options.log)?;
         return Ok(Exit::Done);
     }
     let written =
@@ -34,10 +34,9 @@ pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
         terminal::warn(&summary);
     }
     // All of them, before the first is written.
-    outputs::check(
-        written.files.iter().map(|(path, _)| path.as_path()).filter(|path| path.exists()).chain([target.as_path()]),
-        None,
-    )?;
+    let paths = || written.files.iter().map(|(path, _)| path.as_path()).chain([target.as_path()]);
+    outputs::check(paths().filter(|path| path.exists() || *path == target), None)?;
+    outputs::check_unread(paths(), &options.log)?;
     for folder in written.files.iter().filter_map(|(path, _)| path.parent()) {
         std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;
     }

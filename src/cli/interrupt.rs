@@ -25,12 +25,12 @@ pub fn install() -> Result<(), Failure> {
     platform::install().map_err(|error| Failure::Other(format!("cannot watch for Ctrl-C: {error}")))
 }
 
-/// Whether the user asked to stop.
+/// True if the user asked to stop.
 pub fn requested() -> bool {
     STOP.load(Ordering::SeqCst)
 }
 
-/// What comes next takes its time, and brings nothing that could be saved until [`something_is_rendered`].
+/// Begins a phase that takes its time and makes nothing that could be saved, until [`something_is_rendered`].
 pub fn preparation_begins() {
     PREPARING.store(true, Ordering::SeqCst);
 }
@@ -40,7 +40,7 @@ pub fn something_is_rendered() {
     PREPARING.store(false, Ordering::SeqCst);
 }
 
-/// What was rendered is saved; the program waits for its end alone.
+/// Marks the samples as saved: the program only waits for its end now.
 pub fn render_is_over() {
     OVER.store(true, Ordering::SeqCst);
 }
@@ -95,7 +95,7 @@ mod platform {
         match signal {
             SIGQUIT => {
                 gpt::output::remove_unfinished();
-                // As if nothing had been taken over.
+                // The signal acts as if nothing had been taken over.
                 let _ = emulate_default_handler(signal);
             }
             SIGXCPU => super::ask_to_stop("the limit of processor time is reached: stopping"),

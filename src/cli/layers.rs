@@ -29,7 +29,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// What they come to.
+    /// The channels of all layers.
     pub fn channels(&self) -> &[LayerChannel] {
         &self.channels
     }
@@ -81,7 +81,7 @@ pub fn of_files(arguments: &RenderArguments, scene: &Scene, outputs: &[(PathBuf,
 /// Renders these layers. With `--checkpoint`, each has a state of its own.
 ///
 /// # Errors
-/// What the device and the files report, and an interrupt.
+/// Errors of the device and the files, and an interrupt.
 pub fn render(
     arguments: &RenderArguments,
     options: &RenderOptions,

@@ -18,11 +18,11 @@ pub enum ProgressFormat {
     Plain,
     /// JSON objects: `event` is `start`, `progress` or `end`
     Json,
-    /// As Open Job Description has it: `openjd_progress: 42.0`
+    /// The form of Open Job Description: `openjd_progress: 42.0`
     Openjd,
 }
 
-/// What a render needs, told before it takes it; in bytes.
+/// Memory that a render needs, in bytes, reported before it is taken.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Needs {
     /// Width and height of the picture in pixels.

@@ -14,7 +14,7 @@ use super::pictures::{Pictures, output_formats};
 use super::render_summary::{FEW_PATHS_DECIDE, in_words};
 use super::{denoise, terminal};
 
-/// What was joined, for other programs. Its keys stay as they are; new ones may be added.
+/// The report of a merge for other programs. Its keys stay as they are; new ones may be added.
 #[derive(Serialize)]
 struct Report {
     parts: usize,
@@ -23,7 +23,7 @@ struct Report {
     /// Absolute indices of the first sample and the one after the last.
     first_sample: u32,
     end_sample: u32,
-    /// What is missing, in words.
+    /// The missing samples or regions, in words.
     missing: Option<String>,
     /// Relative mean squared error: the estimate by what parts differ by, and with a margin for chance.
     expected_error: Option<f64>,

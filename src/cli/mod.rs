@@ -78,7 +78,7 @@ fn can_start(threads: usize) -> bool {
     let can = started.len() == threads;
     for thread in started {
         thread.thread().unpark();
-        // It does nothing that could panic.
+        // The thread does nothing that could panic.
         let _ = thread.join();
     }
     can
@@ -86,8 +86,6 @@ fn can_start(threads: usize) -> bool {
 
 /// Parses the program's arguments, does what they say and turns the outcome into the process's exit code.
 pub fn run() -> ExitCode {
-    terminal::install_error_style();
-    gpt::output::protect_inputs();
     let (arguments, typed) = match Typed::parse(std::env::args_os()) {
         Ok(parsed) => parsed,
         Err(error) => {
@@ -118,7 +116,7 @@ pub fn run() -> ExitCode {
         Ok(exit) => exit.into(),
         Err(failure) => {
             let exit = Exit::from(&failure);
-            terminal::print_error(failure.into());
+            terminal::print_error(&failure);
             exit.into()
         }
     }

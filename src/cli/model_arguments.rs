@@ -10,10 +10,10 @@ use super::exit::Failure;
 /// The axis that points up, as it is typed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum UpName {
-    /// As OBJ files mostly have it
+    /// The usual axis of OBJ files
     #[default]
     Y,
-    /// As CAD programs and scanners have it
+    /// The usual axis of CAD programs and scanners
     Z,
 }
 
@@ -42,7 +42,7 @@ pub struct ModelArguments {
 }
 
 impl ModelArguments {
-    /// What was said.
+    /// The view that the arguments ask for.
     ///
     /// # Errors
     /// A usage error where something was said that a scene file decides.

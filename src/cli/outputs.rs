@@ -1,11 +1,11 @@
 //! The files that a command is told to write, before it does anything: each once, and none that it is told to read.
 //!
-//! Other files that it reads, such as textures of a scene, are known once it has done so; they are then refused as they are opened for writing
-//! ([`gpt::output::protect_inputs`]).
+//! Other files that it reads, such as textures of a scene, are known once it has read the scene, and are checked then ([`check_unread`]).
 
 use std::path::Path;
 
-use gpt::output::{FileIdentity, OutputError, STDOUT, check_target};
+use gpt::load::FileLog;
+use gpt::output::{FileIdentity, OutputError, STDOUT, check_target, folder_of, follow_links, remove_left_over};
 
 use super::exit::Failure;
 
@@ -29,7 +29,30 @@ pub fn check<'a>(outputs: impl IntoIterator<Item = &'a Path>, inputs: impl IntoI
             return Err(OutputError::Input { path: path.to_path_buf() }.into());
         }
     }
-    outputs.iter().filter(|path| !is_stdout(path)).try_for_each(|path| Ok(check_target(path)?))
+    outputs.into_iter().filter(|path| !is_stdout(path)).try_for_each(check_place)
+}
+
+/// Checks that this file can be written, and removes from its folder what killed processes left there.
+///
+/// # Errors
+/// A missing folder, or a folder or device in its place.
+pub fn check_place(path: &Path) -> Result<(), Failure> {
+    check_target(path)?;
+    if let Ok(target) = follow_links(path) {
+        remove_left_over(folder_of(&target));
+    }
+    Ok(())
+}
+
+/// Checks that none of these files was read for a scene.
+///
+/// # Errors
+/// The first that was.
+pub fn check_unread<'a>(outputs: impl IntoIterator<Item = &'a Path>, read: &FileLog) -> Result<(), Failure> {
+    match outputs.into_iter().find(|path| !is_stdout(path) && read.has(path)) {
+        Some(path) => Err(OutputError::Input { path: path.to_owned() }.into()),
+        None => Ok(()),
+    }
 }
 
 /// The file that a path means; None is standard output.

@@ -1,4 +1,4 @@
-//! What decides how picture files show a render.
+//! Arguments that decide how picture files show a render.
 
 use clap::Args;
 use gpt::film::Layer;

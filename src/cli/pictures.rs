@@ -15,7 +15,7 @@ pub use super::outputs::is_stdout;
 /// All picture files of a render.
 pub struct Pictures {
     files: Vec<PictureFile>,
-    /// What became of those that could not be written; the others go on.
+    /// Errors of files that could not be written; the others go on.
     failures: Vec<OutputError>,
     bands: u64,
     pixels: u64,
@@ -25,7 +25,7 @@ pub struct Pictures {
     waiting: Duration,
 }
 
-/// What the whole picture was like.
+/// A summary of the finished pictures.
 pub struct PictureSummary {
     /// Files that are in their places.
     pub places: Vec<PathBuf>,
@@ -94,7 +94,7 @@ impl Pictures {
         Ok(())
     }
 
-    /// Whether anything was rendered.
+    /// True if anything was rendered.
     pub fn any(&self) -> bool {
         self.bands > 0
     }

@@ -46,7 +46,7 @@ struct Chunk {
     spp: u32,
     output: String,
     command: Vec<String>,
-    /// The same for a shell.
+    /// The command as a line for a shell.
     shell: String,
     device_bytes: u64,
     /// The host's memory with a state, within a factor of two.
@@ -63,7 +63,7 @@ struct Merge {
     host_bytes: u64,
 }
 
-/// What exit codes of chunks mean for a scheduler.
+/// The meaning of a chunk's exit codes for a scheduler.
 #[derive(Serialize)]
 struct ExitCodes {
     done: [u8; 1],
@@ -140,7 +140,7 @@ fn plan_frames((arguments, typed): (&PlanArguments, &Typed), scene: &Scene, fram
     Ok(Exit::Done)
 }
 
-/// What a chunk's render takes of the host's memory.
+/// Memory of the host that a chunk's render takes.
 fn host_bytes(scene: &Scene) -> u64 {
     let pixels = scene.film.size.map(u64::from).iter().product();
     host_memory(scene, &HostNeeds { pixels, checkpoint: true, ..HostNeeds::default() }).total()
@@ -258,14 +258,14 @@ mod tests {
 
     #[test]
     fn what_was_said_of_the_scene_is_said_to_every_chunk() {
-        let said = ["-D", "spp=4 5", "--camera", "left eye", "--variant=-red", "--assets-root", "a b", "--file-timeout", "9"];
+        let said = ["-D", "spp=4 5", "--camera", "left eye", "--variant=-red", "--assets-root", "a b"];
         let plan =
             ["gpt", "plan", "my room.xml", "--chunks", "2", "--spp", "8", "--strict", "--aov", "albedo,depth", "-o", "a.exr"];
         let (arguments, typed) = Typed::parse(plan.iter().chain(&said).map(OsString::from)).expect("valid arguments");
         let super::super::arguments::Command::Plan(arguments) = arguments.command else { panic!("another command") };
         let words = render_command(&arguments, &typed).words().expect("text");
         assert_eq!(words[..3], ["gpt", "render", "my room.xml"]);
-        for word in ["spp=4 5", "left eye", "--variant=-red", "a b", "9", "--strict", "albedo,depth"] {
+        for word in ["spp=4 5", "left eye", "--variant=-red", "a b", "--strict", "albedo,depth"] {
             assert!(words.iter().any(|one| one == word), "{word} in {words:?}");
         }
         assert!(words.iter().all(|word| !["8", "a.exr", "--chunks"].contains(&word.as_str())), "{words:?}");

@@ -16,7 +16,7 @@ use super::{interrupt, terminal};
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
 /// Preparations are told of in a plain line if they take longer.
 const LONG_PREPARATION: Duration = Duration::from_secs(3);
-/// What is done before the first samples: the driver's compiler takes most of it.
+/// The name of the phase before the first samples; the driver's compiler takes most of it.
 const PREPARING: &str = "preparing the scene and compiling kernels";
 /// Time between two pictures of the hand that turns meanwhile.
 const TICK: Duration = Duration::from_millis(120);
@@ -31,14 +31,14 @@ pub struct Progress {
     span: Option<Span>,
 }
 
-/// What people see.
+/// The display that people see.
 enum Shown {
     Hidden,
     Bar(ProgressBar, Mutex<Pace>),
     Lines(Mutex<Lines>),
 }
 
-/// What plain lines need to remember.
+/// The state of progress in plain lines.
 pub struct Lines {
     last: Instant,
     pace: Pace,
@@ -162,7 +162,7 @@ impl Observer for Progress {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    // What is shown is whole whatever panicked while holding it.
+    // The display is whole whatever panicked while holding it.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -182,7 +182,7 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// What is left, where the pace is known.
+/// Time left, where the pace is known.
 fn time_left(done: u64, total: u64, rate: Option<f64>) -> Option<String> {
     let seconds = total.saturating_sub(done) as f64 / rate?;
     Some(match seconds {

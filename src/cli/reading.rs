@@ -1,4 +1,4 @@
-//! What a person sees while a large scene is read.
+//! The line that a person sees while a large scene is read.
 
 use std::io::{self, IsTerminal};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -8,7 +8,7 @@ use std::time::Duration;
 use gpt::load::ReadingProgress;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// What takes less is not told of.
+/// Nothing is shown of a scene that is read faster than this.
 const PATIENCE: Duration = Duration::from_millis(400);
 /// Time between two looks.
 const TICK: Duration = Duration::from_millis(120);

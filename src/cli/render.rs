@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use gpt::denoise::library::Library;
 use gpt::learn::trial;
-use gpt::load::{self, LoadOptions, SceneSource};
-use gpt::output::{PartSpec, PictureFormat, PictureSpec, Provenance, check_is_no_input, check_target};
+use gpt::load::{self, FileLog, LoadOptions, SceneSource};
+use gpt::output::{PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
@@ -27,7 +27,7 @@ use super::progress::Progress;
 use super::render_summary::{tell, tell_of_error, write_stats};
 use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
 use super::view::{Live, Phase, Watching};
-use super::{denoise, first_look, interrupt, layers, reading, settings, terminal, watch};
+use super::{denoise, first_look, interrupt, layers, outputs, reading, settings, terminal, watch};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
@@ -100,7 +100,7 @@ fn named_inputs(arguments: &RenderArguments) -> impl Iterator<Item = &Path> {
 /// scene is then ready for another one.
 ///
 /// # Errors
-/// What the scene, the device, the files and the arguments report.
+/// Errors of the scene, the device, the files and the arguments.
 fn scene(
     arguments: &RenderArguments,
     options: &RenderOptions,
@@ -111,21 +111,21 @@ fn scene(
 ) -> Result<Exit, Failure> {
     let frames = &arguments.frames;
     let first = |path: &Path| named(path, frames.first_number());
-    let scene = load(arguments)?;
+    let scene = load(arguments, live.files())?;
     live.begin(&scene.name);
     let mut outputs = named_outputs.to_vec();
     if outputs.is_empty() {
         for (ending, format) in [("exr", PictureFormat::Exr), ("png", PictureFormat::Png)] {
             let number = frames.first_number().map_or("", |_| ".####");
             let default = PathBuf::from(format!("{}{number}.{ending}", scene.name));
-            check_target(&first(&default))?;
+            outputs::check_place(&first(&default))?;
             outputs.push((default, format));
         }
     }
     let first_files: Vec<_> = outputs.iter().map(|(path, format)| (first(path), *format)).collect();
-    check_inputs(&first_files, arguments)?;
+    check_inputs(&first_files, arguments, live.files())?;
     if let Some(path) = &arguments.save_scene {
-        save_scene(&scene, path)?;
+        save_scene(&scene, path, live.files())?;
     }
     checkpoint::check(&arguments.checkpoint, &outputs)?;
     let times = frames.times(&scene.animation)?;
@@ -145,10 +145,10 @@ fn scene(
 /// Renders a picture to its files.
 ///
 /// # Errors
-/// What the device, the files and the arguments report.
+/// Errors of the device, the files and the arguments.
 fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     let Frame { arguments, options, scene, outputs, time, started, load_seconds, span, live } = frame;
-    check_inputs(outputs, arguments)?;
+    check_inputs(outputs, arguments, live.files())?;
     let wanted = layers::of_files(arguments, scene, outputs)?;
     let shown = PictureSpec {
         display: arguments.display.display(),
@@ -226,13 +226,14 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
 }
 
 /// No output is one of the files that the scene was read from.
-fn check_inputs(outputs: &[(PathBuf, PictureFormat)], arguments: &RenderArguments) -> Result<(), Failure> {
-    let others = arguments.stats.as_deref().into_iter().chain(arguments.save_scene.as_deref());
-    let targets = outputs.iter().map(|(path, _)| path.as_path()).chain(others);
-    Ok(targets.filter(|path| !is_stdout(path)).try_for_each(check_is_no_input)?)
+fn check_inputs(outputs: &[(PathBuf, PictureFormat)], arguments: &RenderArguments, read: &FileLog) -> Result<(), Failure> {
+    let outputs: Vec<PathBuf> = outputs.iter().map(|(path, _)| path.clone()).collect();
+    let others = written_beside(arguments, &outputs);
+    outputs::check_unread(outputs.iter().chain(&others).map(PathBuf::as_path), read)
 }
 
-/// What is told before it is taken: 32 bytes a pixel of the rows that the film has at a time, and all that the host needs.
+/// Memory that is reported before it is taken: 32 bytes a pixel of the rows that the film has at a time, and
+/// all that the host needs.
 fn needs(arguments: &RenderArguments, scene: &Scene, options: &RenderOptions) -> Needs {
     let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     let film = scene.film.size.map(u64::from).iter().product::<u64>();
@@ -255,12 +256,12 @@ fn names(outputs: &[(PathBuf, PictureFormat)]) -> String {
 }
 
 /// Writes the scene as a file, with the settings that the command line gave it.
-fn save_scene(scene: &Scene, path: &Path) -> Result<(), Failure> {
+fn save_scene(scene: &Scene, path: &Path, read: &FileLog) -> Result<(), Failure> {
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         return Err(Failure::usage(format!("--save-scene {}: a scene file's name ends in .toml", path.display())));
     }
     check_target(path)?;
-    scene_writer::save_scene(scene, path)?;
+    scene_writer::save_scene_beside(scene, path, read)?;
     Ok(())
 }
 
@@ -276,10 +277,10 @@ fn device(arguments: &RenderArguments) -> Result<DeviceChoice, Failure> {
 }
 
 /// The scene as the file and the command line together want it.
-fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
+fn load(arguments: &RenderArguments, log: &FileLog) -> Result<Scene, Failure> {
     let source = SceneSource::parse(arguments.scene.as_deref())?;
     let view = arguments.model.view(&source, arguments.environment.clone(), arguments.estimate.size)?;
-    let options = LoadOptions { view, ..arguments.access.options(arguments.strict) };
+    let options = LoadOptions { view, log: log.clone(), ..arguments.access.options(arguments.strict) };
     let mut scene = reading::shown(arguments.quiet, &options.progress, || source.load(&options))?;
     for warning in scene.warnings.iter().chain(&scene.precision_warnings()) {
         terminal::warn(warning);
@@ -358,7 +359,7 @@ fn render(
     }
 }
 
-/// Where the picture stands in the whole, if it is a part of one.
+/// The place of the picture in the whole, if it is a part of one.
 fn part(arguments: &RenderArguments, film: [u32; 2]) -> Option<PartSpec> {
     let origin = arguments.estimate.crop.map_or([0, 0], |[x, y, ..]| [x, y]);
     arguments.estimate.is_part().then_some(PartSpec { film, origin })

@@ -1,4 +1,4 @@
-//! What is said when a render is over.
+//! The messages at the end of a render.
 
 use std::path::Path;
 
@@ -51,7 +51,7 @@ pub fn write_stats(path: &Path, stats: &impl Serialize) -> Result<(), Failure> {
     Ok(AtomicFile::write(path, (json + "\n").as_bytes())?)
 }
 
-/// What a person should know when it is over.
+/// Prints a summary, and warnings about the result.
 pub fn tell(stats: &Stats, summary: &PictureSummary, quiet: bool) {
     if stats.non_finite_samples > 0 {
         terminal::warn(&format!("{} samples were not finite and are left out of the picture", stats.non_finite_samples));
@@ -73,7 +73,7 @@ pub fn tell(stats: &Stats, summary: &PictureSummary, quiet: bool) {
     }
 }
 
-/// What was rendered, and how fast: the rate is that of the time beside it.
+/// The number of samples, and how fast they were rendered in the time beside it.
 fn summary_line(stats: &Stats, [fewest, most]: [u32; 2]) -> String {
     let done = match stats.adaptive {
         true => stats.spp_done.to_string(),

@@ -21,7 +21,7 @@ use super::render_summary::write_stats;
 use super::view::Live;
 use super::{interrupt, terminal};
 
-/// What a frame begins with.
+/// The means to begin a frame with.
 pub enum Ready {
     /// The first one: a device that may still be opening.
     Device(ChosenDevice),
@@ -35,7 +35,7 @@ impl Ready {
     /// Makes a frame ready.
     ///
     /// # Errors
-    /// As [`Renderer::on`].
+    /// The errors of [`Renderer::on`].
     pub fn renderer(self, scene: &Scene, options: &RenderOptions) -> Result<Renderer, RenderError> {
         match self {
             Self::Device(choice) => Renderer::on(choice, scene, options),
@@ -44,7 +44,7 @@ impl Ready {
         }
     }
 
-    /// What is ready for a frame of this scene, for another scene.
+    /// These means for a frame of another scene.
     pub fn for_another_scene(self) -> Self {
         match self {
             Self::Renderer(renderer, before) => Self::Other(renderer, before),
@@ -52,7 +52,7 @@ impl Ready {
         }
     }
 
-    /// What was hashed for an earlier frame with the same meshes.
+    /// The digest of an earlier frame's meshes, where this scene has the same ones.
     pub fn bulk_digest(&self, scene: &Scene) -> Option<&BulkDigest> {
         match self {
             Self::Device(_) | Self::Other(..) => None,
@@ -73,13 +73,13 @@ pub struct Frame<'a> {
     pub load_seconds: f64,
     /// Which of several it is.
     pub span: Option<Span>,
-    /// Where it is shown meanwhile.
+    /// The page and the viewer that show it meanwhile.
     pub live: &'a Live,
 }
 
-/// What became of a frame.
+/// The outcome of a frame.
 pub enum Done {
-    /// It was finished before, and what was to render it is there still.
+    /// The frame was finished before; the means to render it are still there.
     Before(Ready),
     /// A file of the scene changed meanwhile; the renderer is there still, if it was made.
     Outdated(Option<Box<Renderer>>),
@@ -90,14 +90,14 @@ pub enum Done {
     },
 }
 
-/// What renders a frame.
+/// The function that renders a frame.
 type Render<'r> = &'r dyn Fn(Frame<'_>, Ready) -> Result<Done, Failure>;
 
-/// What all frames have in common.
+/// The settings that all frames share.
 pub struct Sequence<'a> {
     pub arguments: &'a RenderArguments,
     pub options: &'a RenderOptions,
-    /// As it is without a frame.
+    /// The scene at rest, outside of any frame.
     pub scene: &'a Scene,
     /// Names of files in which the number of the frame is missing.
     pub outputs: &'a [(PathBuf, PictureFormat)],
@@ -105,7 +105,7 @@ pub struct Sequence<'a> {
     /// When the program began, and how long it took to read the scene.
     pub started: Instant,
     pub load_seconds: f64,
-    /// Where it is shown meanwhile.
+    /// The page and the viewer that show it meanwhile.
     pub live: &'a Live,
 }
 
@@ -113,7 +113,7 @@ impl Sequence<'_> {
     /// Renders all frames. The first that breaks off or fails is the last. What rendered it may render another scene.
     ///
     /// # Errors
-    /// What the first frame that fails reports.
+    /// Errors of the first frame that fails.
     pub fn render(&self, mut ready: Ready, render: Render<'_>) -> Result<(Exit, Option<Ready>), Failure> {
         let (mut worst, mut all_stats) = (Exit::Done, Vec::new());
         let several = self.arguments.frames.is_sequence();
@@ -186,7 +186,7 @@ impl Sequence<'_> {
     }
 }
 
-/// Whether a picture has a file of its own for its statistics: the only one, or each of several frames.
+/// True if a picture has a file of its own for its statistics: the only picture, or each of several frames.
 pub fn has_own_stats(arguments: &RenderArguments, path: &Path) -> bool {
     !arguments.frames.is_sequence() || (!is_stdout(path) && has_place(path))
 }

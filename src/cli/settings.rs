@@ -1,4 +1,4 @@
-//! What the command line puts over the scene's own settings.
+//! Settings of the command line, which override those of the scene.
 
 use clap::Args;
 use gpt::render::options::{PARTS_OF_STRATA, fits};
@@ -9,7 +9,7 @@ use super::exit::Failure;
 use super::setting_flags::SettingFlags;
 use super::values::{parse_region, parse_size};
 
-/// What overrides the scene's own `[film]` and `[render]`.
+/// Arguments that override the scene's own `[film]` and `[render]`.
 #[derive(Debug, Default, Args)]
 pub struct EstimateArguments {
     /// Render a part of the samples, from this absolute index on: 0 and 128, with --spp 128 each, together are those of --spp 256; `gpt merge` joins parts
@@ -26,7 +26,7 @@ pub struct EstimateArguments {
 }
 
 impl EstimateArguments {
-    /// Whether the render is a part of a picture, which is joined with others.
+    /// True if the render is a part of a picture, which is joined with others.
     pub fn is_part(&self) -> bool {
         self.first_sample.is_some() || self.crop.is_some()
     }
@@ -59,7 +59,7 @@ pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Fai
 /// Overrides size and settings, where they are given.
 ///
 /// # Errors
-/// As [`check`].
+/// The errors of [`check`].
 pub fn apply_to(size: Option<[u32; 2]>, settings: &SettingFlags, scene: &mut Scene) -> Result<(), Failure> {
     if let Some(size) = size {
         scene.film.size = size;
@@ -70,7 +70,7 @@ pub fn apply_to(size: Option<[u32; 2]>, settings: &SettingFlags, scene: &mut Sce
     check(scene)
 }
 
-/// Whether the scene can be rendered with its settings and the command line's together.
+/// Checks that the scene can be rendered with its settings and those of the command line together.
 ///
 /// # Errors
 /// A usage error that names the setting, for the scene file's own are checked before; and a size that cannot be rendered.
@@ -86,7 +86,7 @@ mod tests {
 
     use super::*;
 
-    /// What these arguments of `gpt render` override.
+    /// The overrides that these arguments of `gpt render` make.
     fn flags(arguments: &str) -> EstimateArguments {
         let command = EstimateArguments::augment_args(Command::new("gpt").no_binary_name(true));
         let matches = command.try_get_matches_from(arguments.split_whitespace()).expect("valid arguments");

@@ -28,7 +28,7 @@ pub struct TraversalArguments {
 }
 
 impl TraversalArguments {
-    /// What a plan has to be told.
+    /// The options that a plan is given.
     pub fn options(&self) -> PlanOptions {
         let traversal = match self.traversal {
             TraversalName::Auto => TraversalChoice::Auto,
@@ -38,7 +38,7 @@ impl TraversalArguments {
         PlanOptions { traversal, verified: verified_drivers::known(), ..PlanOptions::default() }
     }
 
-    /// As [`TraversalArguments::options`], for a command that may be told to go without a graphics device.
+    /// Does the work of [`TraversalArguments::options`] for a command that may run without a graphics device.
     ///
     /// # Errors
     /// A usage error where it is, and a way is asked for.

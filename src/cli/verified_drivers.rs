@@ -25,7 +25,8 @@ pub fn file() -> Option<PathBuf> {
     Some(dirs::cache_dir()?.join("gpt").join("ray-queries.json"))
 }
 
-/// Those that were verified by this version of the program; none where the file is not there or cannot be read.
+/// The drivers that were verified by this version of the program; none if the file is missing or cannot be
+/// read.
 pub fn known() -> VerifiedDrivers {
     let entries = file().map(|path| read(&path)).unwrap_or_default();
     VerifiedDrivers::new(entries.into_iter().filter(|entry| *entry == Entry::of(&entry.device)).map(|entry| entry.device))
@@ -34,7 +35,7 @@ pub fn known() -> VerifiedDrivers {
 /// Adds a device that passed, or takes out one that did not. Says whether that is a change.
 ///
 /// # Errors
-/// What the file system says.
+/// Errors of the file system.
 pub fn keep(path: &Path, device: &str, passed: bool) -> io::Result<bool> {
     let mut entries = read(path);
     let entry = Entry::of(device);
@@ -55,7 +56,7 @@ pub fn keep(path: &Path, device: &str, passed: bool) -> io::Result<bool> {
     Ok(true)
 }
 
-/// What is damaged counts as nothing: then ray queries have to be asked for again.
+/// A damaged file counts as an empty one: ray queries then have to be asked for again.
 fn read(path: &Path) -> Vec<Entry> {
     std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default()
 }

@@ -148,7 +148,7 @@ fn verify_reference(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     findings.conclude()
 }
 
-/// What was found so far: printed as it comes, or all of it as JSON in the end.
+/// The findings so far: printed as they come, or all of them as JSON in the end.
 struct Findings {
     as_json: bool,
     found: Vec<Finding>,
@@ -163,7 +163,7 @@ impl Findings {
         Ok(())
     }
 
-    /// Whether some fault was compiled in.
+    /// True if a fault was compiled in.
     fn planted(&self) -> bool {
         self.found.iter().any(|finding| finding.planted().is_some())
     }

@@ -11,7 +11,7 @@ use super::sequence::Ready;
 use super::view::{Live, Phase};
 use super::{interrupt, terminal};
 
-/// Where a scene is to be watched there is a file that can change.
+/// Checks that there is a file that can change, if the scene is to be watched.
 ///
 /// # Errors
 /// A usage error.
@@ -39,7 +39,7 @@ type Rendering<'a> = dyn Fn(&mut Option<Ready>, &Live, Instant) -> Result<Exit, 
 /// it began.
 ///
 /// # Errors
-/// What keeps the first render from beginning, but for mistakes in the scene, which can be mended.
+/// Errors that keep the first render from beginning, but for mistakes in the scene, which can be repaired.
 pub fn run(ready: Ready, live: Live, mut started: Instant, render: &Rendering<'_>) -> Result<Exit, Failure> {
     let mut ready = Some(ready);
     let mut last = Exit::Done;
@@ -54,7 +54,7 @@ pub fn run(ready: Ready, live: Live, mut started: Instant, render: &Rendering<'_
                     return Err(failure);
                 }
                 live.end(Phase::Failed, &failure.to_string(), &[]);
-                terminal::print_error(failure.into());
+                terminal::print_error(&failure);
                 last = exit;
             }
         }

@@ -31,9 +31,10 @@ impl TestResult {
         judged(statistic, two_sided_p(statistic, degrees_of_freedom))
     }
 
-    /// As [`Self::from_deviation`], for the hypothesis that the deviation is at most `margin`: only what goes beyond it counts. It
-    /// allows for rounding, which is no chance: two ways to compute the same number differ in the last digits every time. At the
-    /// margin the test keeps its level, inside it rejects more rarely.
+    /// A test like [`Self::from_deviation`] of the hypothesis that the deviation is at most `margin`: only
+    /// what goes beyond it counts. It allows for rounding, which is no chance: two ways to compute the same
+    /// number differ in the last digits every time. At the margin the test keeps its level, inside it rejects
+    /// more rarely.
     pub fn beyond_margin(deviation: f64, margin: f64, standard_error: f64, degrees_of_freedom: f64) -> Self {
         // Written so that NaN stays NaN; f64::max would make it 0.
         let excess = if deviation.abs() <= margin { 0.0 } else { deviation - margin.copysign(deviation) };

@@ -1,4 +1,5 @@
-//! Whether two pictures show the same: a test per tile and colour channel, and one of the whole picture per channel.
+//! A test whether two pictures show the same: one per tile and colour channel, and one of the whole picture
+//! per channel.
 //!
 //! Three situations, three tests:
 //!
@@ -54,7 +55,7 @@ pub struct Region {
     pub height: u32,
 }
 
-/// What the test of one region and channel found.
+/// The result of the test of one region and channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Finding {
     pub region: Region,

@@ -8,13 +8,13 @@ use crate::output::Image;
 /// Keeps dark pixels from deciding the relative error, as in pbrt's `imgtool` and Rousselle et al. 2011.
 pub const RELATIVE_EPSILON: f64 = 1e-2;
 
-/// What the relative error multiplies a squared difference by, for this value of the reference.
+/// The factor of a squared difference in the relative error, for this value of the reference.
 pub fn relative_weight(reference: f64) -> f64 {
     1.0 / (reference * reference + RELATIVE_EPSILON)
 }
 
 choices! {
-    /// What is averaged over pixels and channels; a is the picture, b the reference.
+    /// The quantity that is averaged over pixels and channels; a is the picture, b the reference.
     pub enum Metric {
         /// Mean squared error: (a − b)².
         Mse = "mse",
@@ -30,13 +30,13 @@ choices! {
 /// A metric's value for red, green and blue, and over all three.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MetricValue {
-    /// Of red, green and blue.
+    /// The metric of red, green and blue.
     pub channels: [f64; 3],
     /// Over all channels.
     pub all: f64,
 }
 
-/// Where two pictures are farthest apart.
+/// The pixel where two pictures are farthest apart.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extreme {
     /// Its absolute value, in the units of the pictures.
@@ -67,7 +67,7 @@ pub struct Comparison {
     pub mae: MetricValue,
     /// Infinite where the mean squared error is 0; JSON has no such number and says null.
     pub psnr: MetricValue,
-    /// Where they are farthest apart.
+    /// The pixel where they are farthest apart.
     pub largest: Extreme,
     /// Pixels that differ in some channel.
     pub different_pixels: u64,
@@ -94,8 +94,9 @@ impl Comparison {
         }
     }
 
-    /// Whether the pictures count as equal. Without a metric the largest absolute difference must not exceed `tolerance`; with one
-    /// its value over all channels, and for [`Metric::Psnr`] it must not fall below. Values that are not finite are never equal.
+    /// True if the pictures count as equal. Without a metric the largest absolute difference must not exceed
+    /// `tolerance`; with one its value over all channels, and for [`Metric::Psnr`] it must not fall below.
+    /// Values that are not finite are never equal.
     pub fn within(&self, metric: Option<Metric>, tolerance: f64) -> bool {
         let close = match metric {
             None => self.largest.difference <= tolerance,

@@ -1,4 +1,4 @@
-//! Whether two pictures show the same, and how far they are apart.
+//! The comparison of two pictures: whether they show the same, and how far they are apart.
 //!
 //! - [`metrics`]: errors of one picture against another.
 //! - [`image_tests`]: tests with a stated level, tile by tile and as a whole.

@@ -1,4 +1,5 @@
-//! What denoising did to a picture's energy, tile by tile: noise that is taken away leaves means as they are, up to the raw picture's own error.
+//! The change that denoising makes to a picture's energy, tile by tile: denoising without bias leaves means
+//! as they are, up to the raw picture's own error.
 
 use serde::Serialize;
 
@@ -28,12 +29,12 @@ pub struct Bias {
     pub undecided_tiles: usize,
     /// The largest change of their energy, as a share; 0 where there is none.
     pub largest_undecided: f64,
-    /// Whether the noise is that of measured samples; else it is what a tile's pixels scatter by.
+    /// True if the noise is that of measured samples; else it is the scatter of a tile's pixels.
     pub noise_is_measured: bool,
 }
 
 impl Bias {
-    /// Of a denoised picture.
+    /// The bias of a denoised picture.
     ///
     /// # Errors
     /// Pictures of different sizes.
@@ -71,7 +72,7 @@ impl Bias {
     }
 }
 
-/// As headers and people have it.
+/// The form in headers and messages.
 impl std::fmt::Display for Bias {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let [r, g, b] = self.whole.map(|change| 100.0 * change);

@@ -82,7 +82,7 @@ impl Library {
         Ok(Self { functions, _library: library, path: path.to_owned() })
     }
 
-    /// Where it was found.
+    /// The path at which it was found.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -166,7 +166,7 @@ struct Device<'a> {
 }
 
 impl Device<'_> {
-    /// What went wrong since it was asked last.
+    /// The last error since it was asked last.
     fn error(&self) -> Option<OidnError> {
         let mut message: *const c_char = std::ptr::null();
         // SAFETY: the place for the message is valid; without a device, the library tells what went wrong in making one.
@@ -213,7 +213,7 @@ fn in_folder(folder: &Path) -> Option<PathBuf> {
     folders.iter().flat_map(|folder| NAMES.iter().map(move |name| folder.join(name))).find(|path| path.is_file())
 }
 
-/// Where Python packages are: of the active environment, of the user, of the system.
+/// The folders of Python packages: of the active environment, of the user, of the system.
 fn python_folders() -> Vec<PathBuf> {
     let environment = |name: &str| std::env::var_os(name).map(PathBuf::from);
     let roots = [environment("VIRTUAL_ENV"), environment("CONDA_PREFIX"), environment("HOME").map(|home| home.join(".local"))];

@@ -18,7 +18,7 @@ use library::{Library, OidnError, Task};
 /// The picture without noise. Layers are denoised by themselves before, so that none of their noise comes into the picture.
 ///
 /// # Errors
-/// What the library says.
+/// Errors of the library.
 pub fn denoise(library: &Library, raw: &Raw) -> Result<Image, OidnError> {
     let Image { width, height, ref pixels } = raw.picture;
     let size = [width as usize, height as usize];

@@ -1,4 +1,4 @@
-//! What is denoised.
+//! The picture that is denoised, with its layers.
 
 use crate::output::{Channels, Image, PartSpec, ReadPicture, SAMPLE_COUNT, cut};
 

@@ -17,7 +17,7 @@ const MOST_POINTS: f64 = 1_048_576.0;
 const MOST_ROWS: f64 = 32.0;
 /// Materials that a blend is made of, each as often as it is in it. What is made of more is taken to be the same everywhere.
 const MOST_PARTS: usize = 32;
-/// Of the mean luminance, what is added everywhere: something may shine between the points.
+/// Added everywhere, as a share of the mean luminance: something may shine between the points.
 const FLOOR: f64 = 0.005;
 
 /// The luminance of a material as a function of texture coordinates. Weights that change with the view count as one half.
@@ -25,14 +25,15 @@ const FLOOR: f64 = 0.005;
 pub struct Function<'a> {
     scene: &'a Scene,
     material: MaterialId,
-    /// What there is of it everywhere.
+    /// The emission that is assumed everywhere.
     floor: f64,
     cells: u32,
     rows: u32,
 }
 
 impl<'a> Function<'a> {
-    /// Of a scene whose lamps that show something have so many parts. None where it emits nothing, or is made of too much.
+    /// The map of a scene whose textured area lights have so many parts. None where the material emits
+    /// nothing, or is too complex.
     pub fn of(scene: &'a Scene, material: MaterialId, parts: usize) -> Option<Self> {
         let looked_up = count(scene, material, MOST_PARTS)?;
         let mean = mean_luminance(scene, material);

@@ -21,7 +21,7 @@ impl Level {
     /// along either axis, so its mean is the value in the middle.
     pub fn interpolated(&self, times: usize, wrap: [TextureWrap; 2]) -> Self {
         let (width, height) = (times * self.width, times * self.height);
-        // Of a fine cell: the cell before its middle, and how far behind that one's middle it lies.
+        // The cell before a fine cell's middle, and how far behind the middle of that cell it lies.
         let place = |fine: usize| {
             let at = (fine as f64 + 0.5) / times as f64 - 0.5;
             (at.floor() as i64, at - at.floor())

@@ -1,4 +1,5 @@
-//! Where a lamp that shows something is bright: how bright any part of it is, and what points of whole shapes are drawn by.
+//! Emission maps of textured area lights: how bright each part of a light is, and the warp by which points of
+//! whole shapes are drawn.
 
 mod function;
 mod level;
@@ -21,7 +22,7 @@ pub use unrolled::Unrolled;
 /// drawn by solid angle, which counts for more where they are near.
 const LEAST_CONTRAST: f64 = 1.5;
 
-/// What a scene's lamps show, by material.
+/// The emission maps of a scene, by material.
 #[derive(Debug, Clone, Default)]
 pub struct EmissionMaps<'a> {
     maps: Vec<Option<EmissionMap<'a>>>,
@@ -40,12 +41,12 @@ enum Shown<'a> {
     Function(Function<'a>),
 }
 
-/// What lies on a whole shape.
+/// The map of a whole shape.
 #[derive(Debug, Clone)]
 struct Whole {
     /// Its mean; None: more than is looked at.
     luminance: Option<f64>,
-    /// What points are drawn by; None: evenly.
+    /// The warp by which points are drawn; None means evenly.
     warp: Option<Arc<HierarchicalWarp>>,
 }
 
@@ -58,7 +59,7 @@ pub enum LampPart {
 }
 
 impl<'a> EmissionMaps<'a> {
-    /// Of all materials that emit by textures, or in shares that textures give.
+    /// The maps of all materials that emit by textures, or in shares that textures give.
     pub fn new(scene: &'a Scene) -> Self {
         let emits = scene.materials_that(|material| material.emission.is_some());
         let varies = scene.materials_that(|material| {
@@ -117,7 +118,7 @@ impl Shown<'_> {
         }
     }
 
-    /// Of the cell of the unit square from its lower to its upper corner, in one of so many rows.
+    /// The mean over the cell of the unit square from its lower to its upper corner, in one of so many rows.
     fn mean_over_cell(&self, [low, high]: [DVec2; 2], rows: u32, unrolled: Unrolled) -> Option<f64> {
         match self {
             Self::Picture(picture) => picture.mean_over(&[low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]),
@@ -132,8 +133,8 @@ impl Shown<'_> {
         }
     }
 
-    /// Of the luminance of a part, what is there wherever it is looked at. A cell of a picture has no weight where nothing of it shines: an even share
-    /// would be noise that even sequences do not have.
+    /// The share of a part's luminance that is assumed everywhere. A cell of a picture has no weight where
+    /// nothing of it shines: an even share would be noise that even sequences do not have.
     fn floor(&self) -> f64 {
         match self {
             Self::Picture(_) => 0.0,

@@ -11,7 +11,7 @@ use crate::texture::Coordinates;
 const MOST_CELLS: f64 = 512.0;
 /// Pieces of texels that parts of lamps are looked up in, of all parts of a scene together.
 const MOST_PIECES: f64 = 8_388_608.0;
-/// The same along either side of a part, where there are few parts and where there are many.
+/// The number of pieces along either side of a part, where there are few parts and where there are many.
 const PIECES: [f64; 2] = [64.0, 2.0];
 /// Texels up to which interpolation is looked at in quarters of texels, and in halves.
 const FINE_TEXELS: [usize; 2] = [1 << 16, 1 << 20];
@@ -31,7 +31,7 @@ pub struct Picture {
     pieces: f64,
 }
 
-/// What a material emits and the image that it looks that up in, where that is all.
+/// The emission of a material and the image that it is looked up in, where that is all.
 fn shown<'a>(scene: &'a Scene, material: &Material) -> Option<(ColorInput, &'a ImageTexture)> {
     let input = material.emission?.radiance;
     if material.is_blend() || input.is_squared() {
@@ -44,7 +44,8 @@ fn shown<'a>(scene: &'a Scene, material: &Material) -> Option<(ColorInput, &'a I
 }
 
 impl Picture {
-    /// Of a scene whose lamps that show something have so many parts. None where an image is not all that the material emits by.
+    /// The map of a scene whose textured area lights have so many parts. None where the material emits by
+    /// more than an image.
     pub fn of(scene: &Scene, material: &Material, parts: usize) -> Option<Self> {
         let (input, image) = shown(scene, material)?;
         let (width, height) = (image.image.width as usize, image.image.height as usize);

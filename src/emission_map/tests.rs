@@ -108,7 +108,8 @@ fn rectangles_are_drawn_by_what_they_show() {
     assert!(EmissionMaps::new(&black).warp(0, Unrolled::Evenly).is_none());
 }
 
-/// Of emission that is no image alone: a checker, noise, a product, corners' colours, and a blend. By the midpoint rule over what the reference looks up.
+/// The emission is no image alone: a checker, noise, a product, corners' colours, and a blend. The truth is
+/// the midpoint rule over what the reference looks up.
 #[test]
 fn functions_are_looked_at_in_points() {
     let triangle = [DVec2::new(0.13, 0.2), DVec2::new(0.9, 0.31), DVec2::new(0.4, 0.97)];
@@ -130,7 +131,7 @@ fn functions_are_looked_at_in_points() {
         let found = maps.luminance(0, &part(triangle)).expect("it varies");
         let floor = 0.005 * 2.0 * crate::scene::texture::mean_of_texture(&scene.textures, 0).x;
         assert!((found - floor - expected).abs() < 0.02 * expected, "{index} {is_product}: {found} and {expected}");
-        // Of a sphere: by area.
+        // The points of a sphere are even by area.
         let steps = 400;
         let places = (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j)));
         let middle = |index: u32| (f64::from(index) + 0.5) / f64::from(steps);

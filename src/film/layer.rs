@@ -1,4 +1,4 @@
-//! What a render can give beside the picture.
+//! Layers that a render can give beside the picture.
 
 use crate::choice::{Choice, choices};
 
@@ -9,7 +9,7 @@ choices! {
         Albedo = "albedo",
         /// Shading normal in the world, towards the viewer, seen in mirrors and through glass: N.X, .Y, .Z.
         Normal = "normal",
-        /// Where the first surface is, in the world: P.X, .Y, .Z.
+        /// The place of the first surface in the world: P.X, .Y, .Z.
         Position = "position",
         /// Distance of the first surface along the viewing direction: Z.
         Depth = "depth",
@@ -23,7 +23,8 @@ choices! {
         Direct = "direct",
         /// Light of more edges: Indirect.R, .G, .B.
         Indirect = "indirect",
-        /// What lights and surroundings send to the camera: Emission.R, .G, .B. Direct, indirect and emission add up to the picture.
+        /// The light that lights and surroundings send to the camera: Emission.R, .G, .B. Direct, indirect
+        /// and emission add up to the picture.
         Emission = "emission",
         /// Number of the shape and of the material at the pixel's centre, from 1; 0 where nothing is met: ObjectId, MaterialId.
         Ids = "ids",
@@ -32,7 +33,7 @@ choices! {
         Cryptomatte = "cryptomatte",
     }
 
-    /// What kernels make in place of radiance.
+    /// A quantity that kernels sum in place of radiance.
     pub enum KernelLayer {
         /// Reflectance of surfaces.
         Albedo = "albedo",
@@ -74,7 +75,7 @@ macro_rules! part_channels {
 }
 
 impl Layer {
-    /// What has to be rendered for it; None: nothing beside the picture, or not by samples.
+    /// The layer that kernels render for it. None where it needs nothing beside the picture, or no samples.
     pub fn kernel(self) -> Option<KernelLayer> {
         match self {
             Self::Albedo => Some(KernelLayer::Albedo),
@@ -102,7 +103,7 @@ impl Layer {
 }
 
 impl KernelLayer {
-    /// Where it stands in parts.
+    /// Its channels in parts.
     pub fn part_channels(self) -> PartChannels {
         match self {
             Self::Albedo => part_channels!("Albedo": "Albedo.R" "Albedo.G" "Albedo.B"),
@@ -116,17 +117,18 @@ impl KernelLayer {
         }
     }
 
-    /// Of what paths meet, not of the light that they find. Its means are over the samples that met something.
+    /// True for layers of the surfaces that paths meet, not of light. Their means are over the samples that
+    /// met something.
     pub fn is_of_surfaces(self) -> bool {
         matches!(self, Self::Albedo | Self::Normal | Self::Position | Self::Depth)
     }
 
-    /// Of the first surface, not of what is seen in it.
+    /// True for layers of the first surface, not of what is seen in it.
     pub fn is_of_first_surface(self) -> bool {
         matches!(self, Self::Position | Self::Depth)
     }
 
-    /// Whether light that reaches the camera over so many edges belongs to it.
+    /// True if light that reaches the camera over so many edges belongs to it.
     pub fn holds_light(self, edges: u32) -> bool {
         match self {
             Self::Emission => edges == 1,

@@ -1,4 +1,4 @@
-//! What rendering produces: finished rows of pixels, and layers beside them.
+//! The results of rendering: finished rows of pixels, and layers beside them.
 
 mod count;
 mod layer;
@@ -29,7 +29,7 @@ pub struct Band {
     pub counts: Option<Vec<u32>>,
     /// Mean radiance per pixel, row by row from the top; `width * rows` long.
     pub mean: Vec<[f32; 3]>,
-    /// What rounding to `mean` lost, same order; empty where it is not known.
+    /// The rounding error of `mean`, in the same order; empty where it is not known.
     pub remainder: Vec<[f32; 3]>,
     /// Mean of the squared luminance per pixel, same order.
     pub second_moment: Vec<f32>,

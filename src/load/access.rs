@@ -6,6 +6,7 @@ use super::error::SceneError;
 use super::files::Files;
 use super::reading::ReadingProgress;
 use super::view::ModelView;
+use crate::file_log::FileLog;
 
 /// What whoever reads a scene allows.
 #[derive(Debug, Clone, Default)]
@@ -24,6 +25,8 @@ pub struct LoadOptions {
     pub view: ModelView,
     /// Is told how many files are read, and how many were.
     pub progress: ReadingProgress,
+    /// The list in which all files are noted that are opened.
+    pub log: FileLog,
 }
 
 /// [`LoadOptions`] whose folder is there.
@@ -36,6 +39,6 @@ pub struct Access {
 impl LoadOptions {
     pub(super) fn access(&self) -> Result<Access, SceneError> {
         let files = self.assets_root.as_deref().map_or(Ok(Files::default()), Files::within)?;
-        Ok(Access { files: files.with_progress(self.progress.clone()), strict: self.strict })
+        Ok(Access { files: files.with_progress(self.progress.clone()).with_log(self.log.clone()), strict: self.strict })
     }
 }

@@ -11,6 +11,7 @@ use super::builtin::embedded;
 use super::error::{SceneError, show};
 use super::reading::ReadingProgress;
 use super::spelling::names::{folded, unquoted};
+use crate::file_log::FileLog;
 use crate::input::{self, AnyFile};
 use crate::scene::Mesh;
 
@@ -31,6 +32,7 @@ pub struct Files {
     /// What imported files brought along, by the paths at which it is looked for.
     held: Arc<Held>,
     progress: ReadingProgress,
+    log: FileLog,
     account: Arc<Mutex<Account>>,
 }
 
@@ -83,7 +85,7 @@ impl Files {
     /// # Errors
     /// A folder that is not there.
     pub fn within(root: &Path) -> Result<Self, SceneError> {
-        let real = input::canonical(root).and_then(|real| {
+        let real = fs::canonicalize(root).and_then(|real| {
             if real.is_dir() { Ok(real) } else { Err(io::Error::new(ErrorKind::NotADirectory, "it is no folder")) }
         });
         match real {
@@ -95,6 +97,16 @@ impl Files {
     /// The same files, of which this is told how many are read.
     pub fn with_progress(self, progress: ReadingProgress) -> Self {
         Self { progress, ..self }
+    }
+
+    /// The same files; those that are opened are noted there.
+    pub fn with_log(self, log: FileLog) -> Self {
+        Self { log, ..self }
+    }
+
+    /// The list of the files that were opened.
+    pub fn log(&self) -> &FileLog {
+        &self.log
     }
 
     /// Who is told how many are read.
@@ -119,12 +131,12 @@ impl Files {
 
     /// Whether there is anything of this name, on disk or in the program.
     pub fn exists(&self, path: &Path) -> bool {
-        self.held.meshes.contains_key(path) || self.is_file(path) || input::exists(path)
+        self.held.meshes.contains_key(path) || self.is_file(path) || path.exists()
     }
 
     /// Whether there is such a regular file, on disk or in the program.
     pub fn is_file(&self, path: &Path) -> bool {
-        self.held.bytes.contains_key(path) || embedded(path).is_some() || input::is_file(path)
+        self.held.bytes.contains_key(path) || embedded(path).is_some() || path.is_file()
     }
 
     /// Reads a file of at most `most` bytes.
@@ -135,7 +147,7 @@ impl Files {
         match embedded(path) {
             Some(content) => Ok(Cow::Borrowed(content)),
             None => {
-                let bytes = input::read(self.allowed(path)?, most)?;
+                let bytes = self.log.read(self.allowed(path)?, most)?;
                 self.account().add(path, bytes.len() as u64)?;
                 Ok(Cow::Owned(bytes))
             }
@@ -149,8 +161,8 @@ impl Files {
         match embedded(path) {
             Some(content) => Ok(Box::new(Cursor::new(content))),
             None => {
-                let file = input::open(self.allowed(path)?)?;
-                self.account().add(path, file.length())?;
+                let file = self.log.open(self.allowed(path)?)?;
+                self.account().add(path, input::length(&file)?)?;
                 Ok(Box::new(file))
             }
         }
@@ -163,7 +175,7 @@ impl Files {
 
     fn allowed<'p>(&self, path: &'p Path) -> io::Result<&'p Path> {
         let Some(root) = &self.root else { return Ok(path) };
-        if input::canonical(path)?.starts_with(root) {
+        if fs::canonicalize(path)?.starts_with(root) {
             return Ok(path);
         }
         let message = format!("it lies outside of {}, which --assets-root allows", show(root));
@@ -180,7 +192,7 @@ impl Files {
         let relative = Path::new(&slashed);
         let beside = relative.file_name().map(Path::new);
         let elsewhere = in_any_case(folder, relative).or_else(|| in_any_case(folder, beside?));
-        elsewhere.filter(|path| input::is_file(path)).map(|path| Found { path, is_substitute: true })
+        elsewhere.filter(|path| path.is_file()).map(|path| Found { path, is_substitute: true })
     }
 
     /// Looks for a file whose name is written as it is but for quotes and backslashes, which also escape blanks; this looks into no folder.
@@ -204,7 +216,7 @@ fn in_any_case(folder: &Path, relative: &Path) -> Option<PathBuf> {
             continue;
         };
         let exact = path.join(name);
-        if input::exists(&exact) {
+        if exact.exists() {
             path = exact;
             continue;
         }

@@ -42,6 +42,7 @@ mod spelling;
 mod toml_text;
 mod view;
 
+pub use crate::file_log::FileLog;
 pub use access::LoadOptions;
 pub use builtin::is_builtin;
 pub use builtin_scenes::{builtin_names, builtin_text};
@@ -56,13 +57,3 @@ pub use printable::printable;
 pub use reading::ReadingProgress;
 pub use source::{SceneSource, load, load_with};
 pub use view::{ModelView, Up};
-
-/// Files of the scenes that this process read that have changed since, or since [`accept_changes`].
-pub fn changed_files() -> Vec<std::path::PathBuf> {
-    crate::input::changed()
-}
-
-/// Takes the files of scenes for what they are now.
-pub fn accept_changes() {
-    crate::input::accept_changes();
-}

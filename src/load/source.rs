@@ -79,7 +79,7 @@ impl SceneSource {
                 load_bytes(read, "stdin", Path::new(""), access)
             }
             Self::File(path) => {
-                let read = input::read(path, most_scene_bytes());
+                let read = access.files.log().read(path, most_scene_bytes());
                 load_bytes(read, &show(path), path.parent().unwrap_or(Path::new("")), access)
             }
             Self::Model(path) => {
@@ -105,7 +105,7 @@ fn load_model(path: &Path, view: &ModelView, access: Access) -> Result<Scene, Sc
     let Some(material) = &view.material else { return file::load_model(path, view.smooth, access) };
     let library = Path::new(material);
     if library.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
-        let read = input::read(library, most_scene_bytes());
+        let read = access.files.log().read(library, most_scene_bytes());
         let bytes = read.map_err(|error| SceneError::in_file(show(library), format!("cannot be read: {error}")))?;
         let (text, _) = encoding::decode(&bytes);
         let folder = library.parent().unwrap_or(Path::new(""));

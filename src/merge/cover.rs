@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::part::{MergeError, PartHeader};
 
-/// What parts lack.
+/// Samples and regions that the parts lack.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Missing {
     /// Absolute indices of samples that no pixel, or not every pixel has, in order.
@@ -50,14 +50,14 @@ pub fn check_overlap(parts: &[PartHeader]) -> Result<(), MergeError> {
     Ok(())
 }
 
-/// What two regions have in common.
+/// The intersection of two regions.
 fn common(a: [u32; 4], b: [u32; 4]) -> Option<[u32; 4]> {
     let [x, y] = [a[0].max(b[0]), a[1].max(b[1])];
     let [right, bottom] = [(a[0] + a[2]).min(b[0] + b[2]), (a[1] + a[3]).min(b[1] + b[3])];
     (x < right && y < bottom).then(|| [x, y, right - x, bottom - y])
 }
 
-/// What is missing of samples `wanted` of all pixels; None where nothing is. No two parts overlap.
+/// The missing part of samples `wanted` of all pixels; None where nothing is missing. No two parts overlap.
 pub fn missing(parts: &[PartHeader], [width, height]: [u32; 2], wanted: &Range<u32>) -> Option<Missing> {
     // Within a cell between the regions' edges, all pixels have the same samples.
     let edges = |axis: usize, end: u32| {
@@ -85,7 +85,7 @@ pub fn missing(parts: &[PartHeader], [width, height]: [u32; 2], wanted: &Range<u
     (pixels > 0).then(|| Missing { samples: union(samples), pixels, pixels_in_all })
 }
 
-/// What of `wanted` none of the ranges has.
+/// The samples of `wanted` that none of the ranges has.
 fn holes(ranges: impl Iterator<Item = Range<u32>>, wanted: &Range<u32>) -> Vec<Range<u32>> {
     let mut holes = Vec::new();
     let mut next = wanted.start;

@@ -16,7 +16,7 @@ use crate::sampling::hash::mix;
 const MOST_VALUES: u64 = 1 << 21;
 const MOST_PIXELS: u64 = 1 << 18;
 
-/// What the parts say of the pixels that are looked at.
+/// The estimate of the error by the parts, from the pixels that are looked at.
 pub struct PartsError {
     total_pixels: u64,
     /// Index of each pixel looked at, ascending, and its value and number of samples in each part that has it.
@@ -25,7 +25,7 @@ pub struct PartsError {
 }
 
 impl PartsError {
-    /// Of a picture of so many pixels, and at most so many parts of each.
+    /// An estimate for a picture of so many pixels, and at most so many parts of each.
     pub fn new(total_pixels: u64, parts: usize) -> Self {
         let most = (MOST_VALUES / (parts as u64).max(1)).clamp(1, MOST_PIXELS);
         let stride = total_pixels.div_ceil(most).max(1);
@@ -92,7 +92,7 @@ mod tests {
         mix(index) as f32 / u32::MAX as f32
     }
 
-    /// Of values whose error is known, in parts of equal and of different lengths.
+    /// The values have a known error, in parts of equal and of different lengths.
     #[test]
     fn the_error_of_known_values_is_found() {
         // Samples are uniform in [0, 2]: the mean is 1, the variance 1/3.

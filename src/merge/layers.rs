@@ -27,7 +27,7 @@ struct LayerPixel {
 }
 
 impl LayerSums {
-    /// Of a picture of so many pixels with the layers that this part has.
+    /// The layers of a picture of so many pixels, as this part has them.
     pub fn new(part: &PartHeader, pixels: usize) -> Self {
         Self {
             layers: part.layers.clone(),
@@ -55,7 +55,7 @@ impl LayerSums {
     /// The channels of the whole picture of this width. `samples`: how many each pixel has.
     ///
     /// # Errors
-    /// What temporary files do.
+    /// Errors of temporary files.
     pub fn channels(&self, size: [u32; 2], samples: impl Fn(usize) -> f64) -> io::Result<Vec<LayerChannel>> {
         let mut channels = Vec::new();
         for (kernel, sums) in &self.kernels {

@@ -26,7 +26,7 @@ pub enum MergeError {
     Mixture { a: PathBuf, b: PathBuf, what: String },
     #[error("{} and {} overlap: both have {what}", a.display(), b.display())]
     Overlap { a: PathBuf, b: PathBuf, what: String },
-    /// What is not there, in words.
+    /// Samples or regions that are missing, in words.
     #[error("the picture is not whole: {0}; --partial joins what there is")]
     Missing(String),
 }
@@ -35,7 +35,7 @@ pub enum MergeError {
 const OWN: [&str; 8] =
     ["gpt:device", "gpt:firstSample", "gpt:samples", "gpt:samplesWanted", "gpt:complete", "gpt:brokenOff", CROP_KEY, DIGEST_KEY];
 
-/// What a part says of itself.
+/// The header of a part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartHeader {
     pub path: PathBuf,
@@ -45,7 +45,7 @@ pub struct PartHeader {
     pub region: [u32; 4],
     /// Absolute indices.
     pub samples: Range<u32>,
-    /// What it has beside the picture, each once.
+    /// Its layers beside the picture, each once.
     pub layers: Vec<Layer>,
     entries: BTreeMap<String, String>,
 }
@@ -65,7 +65,7 @@ pub struct KernelChannels {
     counts: Vec<f32>,
 }
 
-/// What a pixel of a part has.
+/// A pixel of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartPixel {
     pub mean: [f64; 3],
@@ -81,7 +81,7 @@ impl PartHeader {
     /// A file that is no part, or whose render broke off.
     pub fn read(path: &Path) -> Result<Self, MergeError> {
         let failure = |what: String| MergeError::Part { path: path.to_owned(), what };
-        let mut file: input::AnyFile = Box::new(input::open(path).map_err(|error| failure(error.to_string()))?);
+        let mut file = input::open_to_decode(path).map_err(|error| failure(error.to_string()))?;
         let headers = open_exr::headers(&mut file).map_err(|what| failure(format!("it {what}")))?;
         let header = &headers[0];
         let has = |name: &str| header.channels.list.iter().any(|channel| channel.name.eq(name));
@@ -139,13 +139,13 @@ impl PartHeader {
         ids.into_iter().flatten().chain(mattes.into_iter().flatten())
     }
 
-    /// What the header says of mattes.
+    /// The header's entries about mattes.
     pub fn notes(&self) -> Vec<(String, String)> {
         let notes = self.entries.iter().filter(|(key, _)| key.starts_with("cryptomatte/"));
         notes.map(|(key, text)| (key.clone(), text.clone())).collect()
     }
 
-    /// Whether the other is a part of the same picture.
+    /// Checks that the other is a part of the same picture.
     ///
     /// # Errors
     /// The first thing in which they differ.
@@ -175,7 +175,7 @@ impl PartHeader {
         Ok(())
     }
 
-    /// What the header of the whole picture says, with so many samples per pixel from the first on.
+    /// The header entries of the whole picture, with so many samples per pixel from the first on.
     pub fn provenance(&self, first_sample: u32, spp: u32, device: String) -> Provenance {
         let entry = |key: &str| self.entries.get(key).cloned().unwrap_or_default();
         let mut settings = RenderSettings::default();
@@ -198,7 +198,7 @@ impl PartHeader {
         }
     }
 
-    /// What rendered it.
+    /// The device that rendered it.
     pub fn device(&self) -> &str {
         self.entries.get("gpt:device").map_or("", String::as_str)
     }

@@ -19,14 +19,14 @@ pub struct Merged {
     /// Width and height of the whole picture.
     pub size: [u32; 2],
     pub provenance: Provenance,
-    /// What is missing, where that was allowed.
+    /// The missing samples and regions, where these were allowed.
     pub missing: Option<Missing>,
     /// How far the picture is from the truth; None where too little of it is in several parts.
     pub error: Option<ErrorEstimate>,
     /// Samples per pixel of the longest part, and of the whole picture.
     pub longest: u32,
     pub samples: Range<u32>,
-    /// What the parts have beside the picture, and what the header says of it.
+    /// The layers of the parts beside the picture, and what the header says of them.
     pub layers: Vec<Layer>,
     pub notes: Vec<(String, String)>,
     pixels: Vec<Pixel>,
@@ -124,7 +124,7 @@ impl Merged {
     /// The channels of its layers.
     ///
     /// # Errors
-    /// What temporary files do.
+    /// Errors of temporary files.
     pub fn layer_channels(&self) -> io::Result<Vec<LayerChannel>> {
         self.layer_sums.channels(self.size, |pixel| self.pixels[pixel].count)
     }

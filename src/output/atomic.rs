@@ -1,36 +1,27 @@
 //! Files that appear whole or not at all: written under a temporary name in the target's folder, then renamed.
 //!
-//! A temporary file is locked as long as its process lives. One that is not is left from a process that was killed, and the next that writes
-//! into the folder removes it.
+//! A temporary file is locked as long as its process lives. One that is not was left by a process that was killed; [`remove_left_over`] removes it.
 
-use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 use tempfile::{Builder, NamedTempFile};
 
 use super::error::OutputError;
 use crate::file_identity::{folder_of, follow_links};
-use crate::input;
-use crate::patience;
 
 const PREFIX: &str = ".gpt-";
 const SUFFIX: &str = ".part";
-
-/// Temporary files that exist now; a process that ends without unwinding removes them by [`remove_unfinished`].
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// A file that is not there yet. Dropped without [`AtomicFile::commit`], it leaves nothing behind.
 #[derive(Debug)]
 pub struct AtomicFile {
     temporary: Option<NamedTempFile>,
-    temporary_path: PathBuf,
-    /// As the caller named it, for messages.
+    /// The path as the caller named it, for messages.
     named: PathBuf,
-    /// Where the file goes: `named` with symbolic links followed, so that a link stays one.
+    /// The place of the finished file: `named` with symbolic links followed, so that a link stays one.
     target: PathBuf,
 }
 
@@ -38,20 +29,13 @@ impl AtomicFile {
     /// Opens the temporary file beside `path`.
     ///
     /// # Errors
-    /// A folder that is missing or that must not be written to, and a target that is no ordinary file, or one that is read.
+    /// A folder that is missing or that must not be written to, and a target that is no ordinary file.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         check_target(path)?;
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
-        let named = path.to_owned();
-        let begun = patience::within(move || {
-            let target = follow_links(&named)?;
-            remove_left_over(folder_of(&target));
-            Ok((temporary_beside(&target)?, target))
-        });
-        let (temporary, target) = begun.map_err(failure)?;
-        let temporary_path = temporary.path().to_owned();
-        unfinished().push(temporary_path.clone());
-        Ok(Self { temporary: Some(temporary), temporary_path, named: path.to_owned(), target })
+        let target = follow_links(path).map_err(failure)?;
+        let temporary = temporary_beside(&target).map_err(failure)?;
+        Ok(Self { temporary: Some(temporary), named: path.to_owned(), target })
     }
 
     /// The path as it was asked for.
@@ -65,7 +49,7 @@ impl AtomicFile {
         temporary.and_then(|temporary| temporary.as_file().try_clone()).map_err(|source| self.failure(source))
     }
 
-    /// Where the file goes, links followed.
+    /// The place of the finished file, links followed.
     pub fn target(&self) -> &Path {
         &self.target
     }
@@ -79,10 +63,10 @@ impl AtomicFile {
         self.commit_as(&target)
     }
 
-    /// As [`AtomicFile::commit`], under another name in the same folder.
+    /// Does the work of [`AtomicFile::commit`] under another name in the same folder.
     ///
     /// # Errors
-    /// As [`AtomicFile::commit`].
+    /// The errors of [`AtomicFile::commit`].
     pub fn commit_as(mut self, target: &Path) -> Result<(), OutputError> {
         self.put(target)
     }
@@ -100,74 +84,53 @@ impl AtomicFile {
     }
 
     fn put(&mut self, target: &Path) -> Result<(), OutputError> {
-        // It may have been read in the meantime.
-        check_is_no_input(target)?;
         let temporary = self.temporary.take().ok_or_else(|| self.failure(io::Error::other("the file is closed")))?;
-        let (place, folder) = (target.to_owned(), folder_of(target).to_owned());
-        let put = patience::within(move || {
-            if let Err(error) = temporary.as_file().sync_all() {
-                return Ok(Err((error, temporary)));
-            }
-            Ok(temporary.persist(&place).map(drop).map_err(|error| (error.error, error.file)))
-        });
+        let put = match temporary.as_file().sync_all() {
+            Ok(()) => temporary.persist(target).map_err(|error| (error.error, error.file)),
+            Err(error) => Err((error, temporary)),
+        };
         match put {
-            Ok(Ok(())) => patience::within(move || flush_folder(&folder)).map_err(|source| self.failure(source)),
-            Ok(Err((source, temporary))) => {
+            Ok(_) => flush_folder(folder_of(target)).map_err(|source| self.failure(source)),
+            Err((source, temporary)) => {
                 self.temporary = Some(temporary);
                 Err(self.failure(source))
             }
-            Err(source) => Err(self.failure(source)),
         }
     }
 
     /// Puts the file anywhere else: beside its place, or where temporary files are. None: nowhere.
     fn keep(&mut self, target: &Path) -> Option<PathBuf> {
         let mut temporary = self.temporary.take()?;
-        let places: Vec<PathBuf> = names_beside(target, "kept").take(MOST_BESIDE).collect();
-        let suffix = format!(".{}", target.extension().unwrap_or_default().to_string_lossy());
-        let kept = patience::within(move || {
-            for place in places.into_iter().filter(|place| !place.exists()) {
-                match temporary.persist_noclobber(&place) {
-                    Ok(_) => return Ok(place),
-                    Err(error) => temporary = error.file,
-                }
-                // Other names do not help where the folder takes none.
-                if !place.exists() {
-                    break;
-                }
+        for place in names_beside(target, "kept").take(MOST_BESIDE).filter(|place| !place.exists()) {
+            match temporary.persist_noclobber(&place) {
+                Ok(_) => return Some(place),
+                Err(error) => temporary = error.file,
             }
-            let mut elsewhere = Builder::new().prefix("gpt-kept-").suffix(&suffix).tempfile()?;
-            temporary.as_file_mut().rewind()?;
-            io::copy(temporary.as_file_mut(), &mut elsewhere)?;
-            elsewhere.as_file().sync_all()?;
-            elsewhere.keep().map(|(_, place)| place).map_err(|error| error.error)
-        });
-        kept.ok()
+            // Other names do not help where the folder takes none.
+            if !place.exists() {
+                break;
+            }
+        }
+        let suffix = format!(".{}", target.extension().unwrap_or_default().to_string_lossy());
+        let mut elsewhere = Builder::new().prefix("gpt-kept-").suffix(&suffix).tempfile().ok()?;
+        temporary.as_file_mut().rewind().ok()?;
+        io::copy(temporary.as_file_mut(), &mut elsewhere).ok()?;
+        elsewhere.as_file().sync_all().ok()?;
+        elsewhere.keep().ok().map(|(_, place)| place)
     }
 
     /// Writes `bytes` as the whole file at `path`.
     ///
     /// # Errors
-    /// As [`AtomicFile::create`] and [`AtomicFile::commit`].
+    /// The errors of [`AtomicFile::create`] and [`AtomicFile::commit`].
     pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         let file = Self::create(path)?;
-        let (mut handle, bytes) = (file.handle()?, bytes.to_vec());
-        patience::within(move || handle.write_all(&bytes)).map_err(|source| file.failure(source))?;
+        file.handle()?.write_all(bytes).map_err(|source| file.failure(source))?;
         file.commit()
     }
 
     fn failure(&self, source: io::Error) -> OutputError {
         OutputError::Write { path: self.named.clone(), source }
-    }
-}
-
-impl Drop for AtomicFile {
-    fn drop(&mut self) {
-        if let Some(temporary) = self.temporary.take() {
-            // Where its file system is gone, the file stays there.
-            let _ = patience::within(move || temporary.close());
-        }
-        unfinished().retain(|path| *path != self.temporary_path);
     }
 }
 
@@ -185,27 +148,12 @@ pub(super) fn names_beside(target: &Path, word: &str) -> impl Iterator<Item = Pa
     })
 }
 
-/// Checks that a file could be put at `path`: its folder exists and nothing but an ordinary file is in its place, one that was not read. Asked before a
-/// render, so that hours of work do not end at a mistyped folder.
+/// Checks that a file could be put at `path`: its folder exists and nothing but an ordinary file is in its place. Asked before a render, so that
+/// hours of work do not end at a mistyped folder.
 ///
 /// # Errors
-/// [`OutputError::NoFolder`], [`OutputError::BadTarget`] and [`OutputError::Input`].
+/// [`OutputError::NoFolder`] and [`OutputError::BadTarget`].
 pub fn check_target(path: &Path) -> Result<(), OutputError> {
-    check_is_no_input(path)?;
-    let asked = path.to_owned();
-    let checked = patience::within(move || Ok(check_now(&asked)));
-    checked.unwrap_or_else(|source| Err(OutputError::Write { path: path.to_owned(), source }))
-}
-
-/// Checks that a file is none that was read, where [those are kept](input::protect_inputs).
-///
-/// # Errors
-/// [`OutputError::Input`].
-pub fn check_is_no_input(path: &Path) -> Result<(), OutputError> {
-    if input::is_protected(path) { Err(OutputError::Input { path: path.to_owned() }) } else { Ok(()) }
-}
-
-fn check_now(path: &Path) -> Result<(), OutputError> {
     let target = follow_links(path).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
     let folder = folder_of(&target);
     if !folder.is_dir() {
@@ -221,17 +169,20 @@ fn check_now(path: &Path) -> Result<(), OutputError> {
     }
 }
 
-/// Removes the temporary files of every [`AtomicFile`] that is open. For use right before the process ends at once.
+/// Removes the temporary file of every [`AtomicFile`] that this process has open, right before it ends at once. Only Linux lists what a process has
+/// open; elsewhere the files stay until [`remove_left_over`].
 pub fn remove_unfinished() {
-    for path in unfinished().drain(..) {
-        // Nothing is left to be done about a file that cannot be removed.
+    let open = fs::read_dir("/proc/self/fd").into_iter().flatten().flatten();
+    for path in open.filter_map(|entry| fs::read_link(entry.path()).ok()).filter(|path| is_temporary(path)) {
+        // A file that cannot be removed stays.
         let _ = fs::remove_file(path);
     }
 }
 
-fn unfinished() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
-    // The list is whole whatever panicked while holding it.
-    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+/// True where an [`AtomicFile`] made the file's name.
+fn is_temporary(path: &Path) -> bool {
+    let name = path.file_name().and_then(OsStr::to_str);
+    name.is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX))
 }
 
 fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {
@@ -242,7 +193,7 @@ fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     loop {
         let temporary = builder.tempfile_in(folder_of(target))?;
-        // Where a file system has no locks, nobody can take one, and nothing is removed.
+        // A file system without locks refuses, and then nothing is removed.
         let locked = temporary.as_file().lock();
         // Another process may have found it before it was locked, and taken it for left over.
         if locked.is_err() || temporary.path().exists() {
@@ -251,17 +202,9 @@ fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {
     }
 }
 
-/// Folders that were looked through. A folder of very many parts takes time to list, and a killed process leaves nothing more there.
-static LOOKED_THROUGH: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-
-/// Removes temporary files that nobody has open any more, once in a process. What cannot be removed stays.
-fn remove_left_over(folder: &Path) {
-    if !LOOKED_THROUGH.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {
-        return;
-    }
-    let is_ours = |name: &OsStr| name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for entry in entries.flatten().filter(|entry| is_ours(&entry.file_name())) {
+/// Removes temporary files in a folder that no process has open any more. A file that cannot be removed stays.
+pub fn remove_left_over(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten().filter(|entry| is_temporary(&entry.path())) {
         let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
         if let Some(file) = File::open(entry.path()).ok().filter(|_| is_file)
             && file.try_lock().is_ok()
@@ -330,7 +273,7 @@ mod tests {
         assert!(check_target(Path::new("just-a-name.exr")).is_ok());
     }
 
-    /// Of a process that was killed; what a living one writes stays.
+    /// The files of a living process stay.
     #[test]
     fn what_a_killed_process_left_is_removed() {
         let folder = tempfile::tempdir().unwrap();
@@ -338,6 +281,7 @@ mod tests {
         fs::write(&left, "half of a picture").unwrap();
         fs::write(folder.path().join(".gpt-notes"), "not a temporary file").unwrap();
         let living = AtomicFile::create(&folder.path().join("a.exr")).unwrap();
+        remove_left_over(folder.path());
         assert!(!left.exists());
         AtomicFile::write(&folder.path().join("b.exr"), b"another").unwrap();
         living.handle().unwrap().write_all(b"a picture").unwrap();

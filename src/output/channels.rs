@@ -7,7 +7,7 @@ use exr::meta::attribute::AttributeValue;
 use exr::prelude::Vec2;
 
 use super::read::{ReadError, check_size};
-use crate::input::{self, AnyFile};
+use crate::input;
 use crate::picture_file::open_exr::{ExrFile, read_lines};
 
 /// The part of an EXR file that is the picture, in its display window; outside of its data window, numbers are 0.
@@ -31,7 +31,7 @@ impl Channels {
     }
 
     fn read_or_say(path: &Path) -> Result<Self, String> {
-        let open = || -> Result<AnyFile, String> { Ok(Box::new(input::open(path).map_err(|error| error.to_string())?)) };
+        let open = || input::open_to_decode(path).map_err(|error| error.to_string());
         let file = ExrFile::open(open()?, None).map_err(|what| format!("it {what}"))?;
         let (header, windows) = (file.header(), file.windows());
         let size @ [width, height] = windows.size();
@@ -79,7 +79,7 @@ impl Channels {
         self.values.keys().map(String::as_str)
     }
 
-    /// What the header says under this key.
+    /// The text or number that the header has under this key.
     pub fn attribute(&self, key: &str) -> Option<&str> {
         self.attributes.get(key).map(String::as_str)
     }

@@ -1,4 +1,4 @@
-//! What previews have in common: rows of 8-bit colours, and where they come from in one line.
+//! Common parts of previews: rows of 8-bit colours, and a line that says how they were made.
 
 use std::io::{BufReader, BufWriter, Read, Seek, Write};
 

@@ -27,13 +27,13 @@ impl Display {
 /// By how much radiance is multiplied.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Exposure {
-    /// As the picture needs it: see [`Meter`].
+    /// The exposure that suits the picture: see [`Meter`].
     Auto,
     /// By 2 to the power of so many stops.
     Stops(f32),
 }
 
-/// As a header says it.
+/// The form that headers have.
 impl fmt::Display for Display {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "exposure={}; tonemap={}", self.exposure, self.tone_curve.name())?;
@@ -113,7 +113,7 @@ impl Meter {
 pub struct Developer {
     /// Exposure and white balance together.
     matrix: DMat3,
-    /// The same where all that it does is to multiply.
+    /// The factor of a developer that only multiplies.
     factor: Option<f32>,
     curve: ToneCurve,
     agx: Agx,
@@ -137,7 +137,7 @@ impl Developer {
         if let (Some(factor), ToneCurve::Clip) = (self.factor, self.curve) {
             return pixel.map(|radiance| srgb_byte(radiance * factor));
         }
-        // What is not a number, or negative by a filter, is black.
+        // A value that is not a number, or is negative because of a filter, is black.
         let possible = |value: f64| if value > 0.0 { value.min(1e30) } else { 0.0 };
         let scene = self.matrix * DVec3::from_array(pixel.map(|value| possible(f64::from(value))));
         let shown = match self.curve {
@@ -207,9 +207,9 @@ impl Agx {
     const SLOPE: f64 = 2.0;
     const TOE_POWER: f64 = 3.0;
     const SHOULDER_POWER: f64 = 3.25;
-    /// Where middle grey stands on the scale of stops, and what it becomes.
+    /// The place of middle grey on the scale of stops, and the value that it becomes.
     const PIVOT: [f64; 2] = [Self::STOPS_BELOW / (Self::STOPS_BELOW + Self::STOPS_ABOVE), 0.5];
-    /// What the sigmoid gives is encoded by this power.
+    /// The power that encodes the result of the sigmoid.
     const ENCODING: f64 = 2.2;
 
     fn new() -> Self {

@@ -1,4 +1,4 @@
-//! What can go wrong with a picture file.
+//! Errors of picture files.
 
 use std::io;
 use std::path::PathBuf;

@@ -177,7 +177,7 @@ fn layer_rows(channels: &[Channel], row: u32) -> Result<BTreeMap<usize, Vec<[f32
     Ok(rows)
 }
 
-/// Of a row: the layers' values by the address of their picture, and those of a part's own channels.
+/// One row: the layers' values by the address of their picture, and those of a part's own channels.
 type LayerRows<'a> = (&'a BTreeMap<usize, Vec<[f32; 3]>>, &'a [[f32; PART.len()]]);
 
 /// Appends a row of a channel. Of a part, there are also the values of its own channels, pixel by pixel.
@@ -215,7 +215,7 @@ fn to_half(value: f32) -> f16 {
     f16::from_f32(if value.is_nan() { value } else { value.clamp(-largest, largest) })
 }
 
-/// What the channels of a part hold of a row, pixel by pixel.
+/// The values of a part's channels in a row, pixel by pixel.
 fn part_values(row: &Row<'_>) -> Vec<[f32; PART.len()]> {
     let values = |pixel: usize| {
         let mean = row.mean[pixel];
@@ -242,7 +242,7 @@ fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_cou
     let size = Vec2(spec.width as usize, spec.height as usize);
     let mut header = Header::new(Text::from("gpt"), size, channels).with_encoding(
         match spec.exr.compression {
-            // Of a part, nothing may be lost.
+            // A part must lose nothing.
             ExrCompression::Pxr24 if spec.part.is_some() => Compression::ZIP16,
             choice => compression(choice),
         },

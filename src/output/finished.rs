@@ -1,4 +1,4 @@
-//! Whether a file is a finished picture of a certain render.
+//! Tells whether a file is a finished picture of a certain render.
 
 use std::io::Read;
 use std::path::Path;
@@ -36,14 +36,14 @@ pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpe
         let is_in_place = [image.width, image.height] == shown && covered == [origin[0], origin[1], size[0], size[1]];
         is_in_place && notes.is_empty() && image.pixels.as_flattened().iter().all(|value| value.is_finite())
     };
-    input::is_file(path)
+    path.is_file()
         && is_finished(path)
         && match format {
             PictureFormat::Exr => exr_agrees(path, spec) && holds_what_was_written(path),
             PictureFormat::Png => png_agrees(path, spec),
             PictureFormat::Jpeg | PictureFormat::Hdr => text_agrees(path, format, spec),
         }
-        && input::as_own(path, || read_picture(path)).is_ok_and(fits)
+        && read_picture(path).is_ok_and(fits)
 }
 
 /// The entries that decide what is shown.
@@ -72,14 +72,14 @@ fn holds_what_was_written(path: &Path) -> bool {
 }
 
 fn png_agrees(path: &Path, spec: &PictureSpec) -> bool {
-    let Ok(file) = input::open_own(path) else { return false };
+    let Ok(file) = input::open(path) else { return false };
     let Ok(reader) = png::Decoder::new(file).read_info() else { return false };
     let mut texts = reader.info().utf8_text.iter().filter(|text| text.keyword == png_file::KEYWORD);
     let Some(Ok(found)) = texts.next().map(|text| text.get_text()) else { return false };
     is_of(&found, spec)
 }
 
-/// Whether the line that previews carry is that of this render, whatever the device.
+/// True if the line that previews carry is that of this render, whatever the device.
 fn is_of(found: &str, spec: &PictureSpec) -> bool {
     let without_device = |text: &str| {
         let words = text.split("; ").filter(|word| !["device=", "scene="].iter().any(|key| word.contains(key)));
@@ -88,10 +88,11 @@ fn is_of(found: &str, spec: &PictureSpec) -> bool {
     without_device(found) == without_device(&software(spec))
 }
 
-/// Of files that have that line near their beginning: a comment of a JPEG, or an entry of a Radiance header.
+/// Compares files that have that line near their beginning: a comment of a JPEG, or an entry of a Radiance
+/// header.
 fn text_agrees(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
     let mut start = Vec::new();
-    let Ok(file) = input::open_own(path) else { return false };
+    let Ok(file) = input::open(path) else { return false };
     if file.take(LONGEST_START).read_to_end(&mut start).is_err() {
         return false;
     }

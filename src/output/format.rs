@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// What a picture file can be.
+/// A format of picture files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PictureFormat {
     /// Linear float scan lines, lossless.

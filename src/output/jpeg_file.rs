@@ -10,7 +10,7 @@ use super::provenance::BROKEN_OFF_KEY;
 use super::rows::{Completeness, Rows};
 use super::spec::PictureSpec;
 
-/// Of 100; noise of a render that is still seen well survives.
+/// Quality out of 100: the noise of a render that can still be seen survives.
 const QUALITY: u8 = 92;
 /// Marks a comment, whose length, itself included, has two bytes.
 const COMMENT: [u8; 2] = [0xff, 0xfe];

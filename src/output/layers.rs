@@ -21,7 +21,7 @@ impl LayerPicture {
     /// All 0.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn new([width, height]: [u32; 2]) -> Result<Self> {
         let file = temporary_file()?;
         file.set_len(u64::from(width) * u64::from(height) * size_of::<[f32; 3]>() as u64).map_err(in_temporary_folder)?;
@@ -31,7 +31,7 @@ impl LayerPicture {
     /// Writes whole rows, from this one on.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn write_rows(&self, first_row: u32, pixels: &[[f32; 3]]) -> Result<()> {
         let mut file = self.at_row(first_row)?;
         file.write_all(bytemuck::cast_slice(pixels)).map_err(in_temporary_folder)
@@ -40,7 +40,7 @@ impl LayerPicture {
     /// A row.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn row(&self, row: u32) -> Result<Vec<[f32; 3]>> {
         let mut pixels = vec![[0.0; 3]; self.width];
         let mut file = self.at_row(row)?;
@@ -63,12 +63,12 @@ pub struct LayerChannel {
     pub source: LayerSource,
 }
 
-/// Where a channel's numbers come from.
+/// The source of a channel's numbers.
 #[derive(Debug, Clone)]
 pub enum LayerSource {
     /// One of a layer's three numbers.
     Component(Arc<LayerPicture>, usize),
-    /// The same, a whole number.
+    /// One of a layer's three numbers, which is a whole number.
     Whole(Arc<LayerPicture>, usize),
     /// The variance of a sample, from the mean of its square and the picture itself.
     Variance(Arc<LayerPicture>, usize),
@@ -106,7 +106,8 @@ impl LayerChannel {
         }
     }
 
-    /// What a part has besides, so that it can be joined with others: means, what rounding to them lost, and how many samples they are over.
+    /// The channels that a part needs to be joined with others: means, their rounding errors, and how many
+    /// samples they are over.
     pub fn of_part(kernel: KernelLayer, [means, remainders, counts]: [&Arc<LayerPicture>; 3]) -> Vec<Self> {
         let channels = kernel.part_channels();
         let of_picture = |names: &[&'static str], picture: &Arc<LayerPicture>| -> Vec<Self> {

@@ -21,9 +21,8 @@ mod rows;
 mod spec;
 mod temporary;
 
-pub use crate::file_identity::{FileIdentity, follow_links};
-pub use crate::input::{as_own, protect_inputs};
-pub use atomic::{AtomicFile, check_is_no_input, check_target, remove_unfinished};
+pub use crate::file_identity::{FileIdentity, folder_of, follow_links};
+pub use atomic::{AtomicFile, check_target, remove_left_over, remove_unfinished};
 pub use channels::Channels;
 pub use display::{Developer, Display, Exposure, Meter, ToneCurve, srgb_byte};
 pub use error::OutputError;

@@ -1,7 +1,7 @@
 //! One picture file in the making: a thread encodes and writes while the render goes on.
 
 use std::fs::File;
-use std::io::{BufWriter, Error, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Error, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, sync_channel};
@@ -21,7 +21,6 @@ use super::{exr_file, hdr_file, jpeg_file, png_file};
 use crate::file_identity::follow_links;
 use crate::film::Band;
 use crate::input;
-use crate::patience::{self, Watched};
 
 /// Bands that wait for the encoder; with the one it works on and the one being rendered, this bounds the memory.
 const WAITING_BANDS: usize = 1;
@@ -40,10 +39,7 @@ pub struct PictureFile {
     spec: PictureSpec,
 }
 
-/// The encoder ended before it was told to.
-struct Gone;
-
-/// Where a picture goes.
+/// The target of a picture.
 enum Place {
     File(AtomicFile),
     /// Kept in a file without a name until it is whole: encoders go back to the header.
@@ -54,7 +50,7 @@ impl PictureFile {
     /// Begins the file; `format` is what the path's ending asked for. The path [`STDOUT`] is standard output.
     ///
     /// # Errors
-    /// As [`AtomicFile::create`]; a system that starts no more threads.
+    /// The errors of [`AtomicFile::create`]; a system that starts no more threads.
     pub fn create(path: &Path, format: PictureFormat, spec: &PictureSpec) -> Result<Self, OutputError> {
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
         let place = if path == Path::new(STDOUT) {
@@ -66,7 +62,7 @@ impl PictureFile {
             Place::File(file) => file.handle()?,
             Place::Stdout(file) => file.try_clone().map_err(failure)?,
         };
-        let writer = BufWriter::with_capacity(1 << 18, Watched(handle));
+        let writer = BufWriter::with_capacity(1 << 18, handle);
         let (messages, receiver) = sync_channel(WAITING_BANDS);
         let rows = Rows::new(receiver, spec.width);
         let encoder_spec = spec.clone();
@@ -92,8 +88,6 @@ impl PictureFile {
     ///
     /// # Errors
     /// A band of another width, one that overlaps an earlier one, or an encoder that gave up, with what it said.
-    ///
-    /// A file system that does not answer ends the file as well.
     pub fn write_band(&mut self, band: &Arc<Band>) -> Result<(), Error> {
         let pixels = u64::from(band.width) * u64::from(band.rows);
         let end = band.first_row.checked_add(band.rows);
@@ -102,7 +96,7 @@ impl PictureFile {
             return Err(Error::other(format!("the band at row {} does not fit the picture", band.first_row)));
         }
         self.rows_taken = band.first_row + band.rows;
-        self.send(Message::Band(band.clone()))?.map_err(|Gone| {
+        self.messages.send(Message::Band(band.clone())).map_err(|_| {
             Error::other(self.join_encoder().err().unwrap_or_else(|| self.encode_error("the encoder stopped early")))
         })
     }
@@ -110,7 +104,7 @@ impl PictureFile {
     /// Finishes the file with what came, black where nothing came, and puts it in its place.
     ///
     /// # Errors
-    /// What the encoder or the file system said.
+    /// Errors of the encoder and the file system.
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.encode_rest(Completeness::Finished)?;
         match self.place {
@@ -122,18 +116,18 @@ impl PictureFile {
         }
     }
 
-    /// As [`PictureFile::finish`], of a render that broke off. A finished picture that is in the place stays there, and this one goes beside
-    /// it. Where it went.
+    /// Finishes the file as [`PictureFile::finish`] does, for a render that broke off. A finished picture in
+    /// the place stays there, and this one goes beside it. The result is where it went.
     ///
     /// # Errors
-    /// As [`PictureFile::finish`].
+    /// The errors of [`PictureFile::finish`].
     pub fn finish_broken_off(mut self) -> Result<PathBuf, OutputError> {
         self.encode_rest(Completeness::BrokenOff)?;
         match self.place {
             Place::Stdout(file) => write_to_stdout(file).map(|()| PathBuf::from(STDOUT)),
             Place::File(file) => {
                 let place = beside_finished(file.target());
-                // As the person would name it, unless a link leads elsewhere.
+                // The message names the file as the person did, unless a link leads elsewhere.
                 let named = file.path().with_file_name(place.file_name().unwrap_or_default());
                 let named = if follow_links(&named).is_ok_and(|meant| meant == place) { named } else { place.clone() };
                 file.commit_or_keep(&place).map(|()| named)
@@ -141,7 +135,7 @@ impl PictureFile {
         }
     }
 
-    /// Whether a finished picture stands in its place, which one that broke off does not replace.
+    /// True if a finished picture stands in its place. A render that broke off does not replace it.
     pub fn has_finished_one(&self) -> bool {
         match &self.place {
             Place::File(file) => beside_finished(file.target()) != file.target(),
@@ -150,34 +144,15 @@ impl PictureFile {
     }
 
     fn encode_rest(&mut self, completeness: Completeness) -> Result<(), OutputError> {
-        let sent = self.send(Message::Finish(completeness));
         // An encoder that is gone has an error to tell, which joining it brings.
-        let _ = sent.map_err(|source| self.write_error(source))?;
+        let _ = self.messages.send(Message::Finish(completeness));
         self.join_encoder()
-    }
-
-    /// Hands something to the encoder. The error is that of a file that does not answer, which is given up.
-    fn send(&mut self, message: Message) -> Result<Result<(), Gone>, Error> {
-        let Some(encoder) = &self.encoder else { return Ok(Err(Gone)) };
-        match patience::send(&self.messages, message, encoder) {
-            Ok(()) => Ok(Ok(())),
-            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(Err(Gone)),
-            Err(error) => {
-                self.encoder = None;
-                Err(error)
-            }
-        }
-    }
-
-    fn write_error(&self, source: Error) -> OutputError {
-        OutputError::Write { path: self.path().to_owned(), source }
     }
 
     /// Waits for the encoder, which must be about to end, and tells how it went.
     fn join_encoder(&mut self) -> Result<(), OutputError> {
         let encoder = self.encoder.take().ok_or_else(|| self.encode_error("writing failed before"))?;
-        let joined = patience::join(encoder).map_err(|source| self.write_error(source))?;
-        let encoded = joined.unwrap_or_else(|_| Err("the encoder panicked".to_owned()));
+        let encoded = encoder.join().unwrap_or_else(|_| Err("the encoder panicked".to_owned()));
         encoded.map_err(|what| self.encode_error(&what))
     }
 
@@ -193,14 +168,14 @@ fn write_to_stdout(mut file: File) -> Result<(), OutputError> {
     copied.map_err(|source| OutputError::Write { path: STDOUT.into(), source })
 }
 
-/// Where a picture may go that is not finished: its own place, or beside what is there and finished, as `name.incomplete.exr`.
+/// The place of an unfinished picture: its own place, or `name.incomplete.exr` beside a finished file.
 fn beside_finished(target: &Path) -> PathBuf {
     let candidates = std::iter::once(target.to_owned()).chain(names_beside(target, "incomplete"));
     let mut free = candidates.take(MOST_BESIDE).filter(|path| !is_finished(path));
     free.next().unwrap_or_else(|| target.to_owned())
 }
 
-/// Whether what stands there is to be kept: anything but a picture that says that its render broke off.
+/// True if the file there is to be kept: anything but a picture that says that its render broke off.
 pub(super) fn is_finished(path: &Path) -> bool {
     let note = BROKEN_OFF_KEY;
     if let Ok(Ok(meta)) = input::open_to_decode(path).map(|file| MetaData::read_from_buffered(file, false)) {
@@ -211,7 +186,7 @@ pub(super) fn is_finished(path: &Path) -> bool {
     }
     // A preview has its note right before its end.
     let mut end = Vec::new();
-    let read = input::open_own(path).and_then(|mut file| {
+    let read = input::open(path).and_then(|mut file| {
         let length = file.seek(SeekFrom::End(0))?;
         file.seek(SeekFrom::Start(length.saturating_sub(BYTES_OF_NOTE)))?;
         file.read_to_end(&mut end)

@@ -1,4 +1,4 @@
-//! Where a picture comes from: what a file's header says so that the picture can be made again.
+//! The origin of a picture, which a file's header states so that the picture can be made again.
 
 use super::rows::Completeness;
 use crate::scene::settings::{Setting, Value, Values};

@@ -23,7 +23,7 @@ pub fn cut<T: Copy>(pixels: &[T], width: u32, [column, row, columns, rows]: [u32
     rows.flat_map(|pixels| &pixels[column as usize..(column + columns) as usize]).copied().collect()
 }
 
-/// What the numbers of a picture file are.
+/// The meaning of the numbers in a picture file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PictureKind {
     /// Floating-point numbers, linear: EXR, Radiance HDR.
@@ -96,7 +96,7 @@ pub fn read_undamaged_picture(path: &Path) -> Result<ReadPicture, ReadError> {
 /// The pixels of [`read_picture`].
 ///
 /// # Errors
-/// As there.
+/// The errors of [`read_picture`].
 pub fn read_image(path: &Path) -> Result<Image, ReadError> {
     read_picture(path).map(|picture| picture.image)
 }
@@ -119,7 +119,7 @@ fn read_or_say(path: &Path) -> Result<ReadPicture, String> {
 }
 
 fn open(path: &Path) -> Result<AnyFile, String> {
-    Ok(Box::new(input::open(path).map_err(|error| error.to_string())?))
+    input::open_to_decode(path).map_err(|error| error.to_string())
 }
 
 /// Refuses pictures that are larger than any is, before they are decoded.

@@ -5,17 +5,17 @@ use std::sync::mpsc::Receiver;
 
 use crate::film::Band;
 
-/// What the render tells a file's writer.
+/// A message of the render to a file's writer.
 pub(super) enum Message {
     Band(Arc<Band>),
     /// No more bands; the file is to be finished with what came.
     Finish(Completeness),
 }
 
-/// Whether a picture is what was asked for.
+/// Tells whether a picture has all that was asked for.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Completeness {
-    /// As many samples as the render's settings make it have.
+    /// The picture has as many samples as the render's settings give it.
     #[default]
     Finished,
     /// The render broke off: it was interrupted, or the device was lost.

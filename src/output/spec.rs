@@ -1,4 +1,4 @@
-//! What is known of a picture before its first row.
+//! The properties of a picture that are known before its first row.
 
 use super::display::Display;
 use super::layers::LayerChannel;
@@ -28,7 +28,7 @@ choices! {
         Zip = "zip",
         /// Wavelets: the smallest files of noisy pictures, without loss.
         Piz = "piz",
-        /// As zip, with 24 of a float's 32 bits: the only one that loses something.
+        /// The form of zip with 24 of a float's 32 bits, the only one that loses something.
         Pxr24 = "pxr24",
     }
 }
@@ -40,7 +40,7 @@ impl Default for ExrCompression {
     }
 }
 
-/// Where the pixels of a part stand in the whole picture.
+/// The place of a part's pixels in the whole picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PartSpec {
     /// Width and height of the whole picture.
@@ -49,7 +49,7 @@ pub struct PartSpec {
     pub origin: [u32; 2],
 }
 
-/// What a file's encoder needs to know before the first row.
+/// The properties that a file's encoder needs before the first row.
 #[derive(Debug, Clone, Default)]
 pub struct PictureSpec {
     pub width: u32,
@@ -65,7 +65,7 @@ pub struct PictureSpec {
     pub notes: Vec<(String, String)>,
     /// None of a picture whose origin is not known.
     pub provenance: Option<Provenance>,
-    /// Of a part that `gpt merge` joins with others: float files hold what that needs.
+    /// The place of a part that `gpt merge` joins with others; float files then hold what that needs.
     pub part: Option<PartSpec>,
     /// The place of a picture that was made of a part and is none itself: an EXR file says where in the whole picture it lies.
     pub placed: Option<PartSpec>,

@@ -44,7 +44,7 @@ impl Format {
     /// By the first bytes of the file; of those that have no signature, by the ending of its name. None: it is no picture that is read here.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn of(file: &mut AnyFile, path: &Path) -> std::io::Result<Option<Self>> {
         let mut start = Vec::new();
         file.take(64).read_to_end(&mut start)?;

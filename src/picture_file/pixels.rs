@@ -18,7 +18,7 @@ pub struct Hints {
     pub envelope: Option<Envelope>,
     /// How a texture goes on beyond its edges: `black`, `clamp`, `periodic` or `mirror`, of both axes or one after the other.
     pub wrap_modes: Option<String>,
-    /// It was seen from some place, as renders of Radiance are.
+    /// True if the header states a view, as renders of Radiance do.
     pub has_view: bool,
 }
 

@@ -29,7 +29,7 @@ pub struct Blessed {
 /// that fill space evenly are best there.
 ///
 /// # Errors
-/// What the device reports; [`PictureTestError::Interrupted`].
+/// Errors of the device; [`PictureTestError::Interrupted`].
 pub fn bless(
     renderer: &mut dyn Renderer,
     [width, height]: [u32; 2],

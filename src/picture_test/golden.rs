@@ -8,7 +8,7 @@ use super::replications::Replications;
 use crate::film::Band;
 use crate::output::{
     Channels, ExrOptions, Image, LayerChannel, LayerPicture, LayerSource, OutputError, PictureFile, PictureFormat, PictureSpec,
-    Provenance, ReadError, SAMPLE_COUNT, as_own, read_undamaged_picture,
+    Provenance, ReadError, SAMPLE_COUNT, read_undamaged_picture,
 };
 
 /// Channels of the variance of a sample.
@@ -81,8 +81,7 @@ impl Golden {
     /// # Errors
     /// A file that cannot be read, or lacks what a test needs.
     pub fn read(path: &Path) -> Result<Self, PictureTestError> {
-        // Blessing writes it again.
-        let file = as_own(path, || Channels::read(path))?;
+        let file = Channels::read(path)?;
         let lacking = |what: &str| {
             let help = "`gpt test --bless` makes one that has it, and so does `gpt render --aov variance,samples`";
             PictureTestError::Unsuitable(format!("{}: a golden picture has {what}; {help}", path.display()))
@@ -90,7 +89,7 @@ impl Golden {
         if file.colours(["R", "G", "B"]).is_none() {
             return Err(lacking("the channels R, G and B"));
         }
-        let picture = as_own(path, || read_undamaged_picture(path))?;
+        let picture = read_undamaged_picture(path)?;
         if picture.covered != [0, 0, file.width, file.height] {
             return Err(lacking("every pixel of its picture, and not a part of them"));
         }
@@ -123,7 +122,7 @@ impl Golden {
     /// Writes the picture as an EXR file.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn write(&self, path: &Path, provenance: Provenance) -> Result<(), PictureTestError> {
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
         let Image { width, height, ref pixels } = self.mean;

@@ -10,17 +10,17 @@ use crate::compare::{Finding, ImageComparison, Picture, Region, Scatter, TestRes
 use crate::output::Image;
 use crate::renderer::{Observer, Renderer};
 
-/// What a test found.
+/// The result of a test.
 pub struct Judgement {
-    /// What the render of the first look is able to find.
+    /// The change that the render of the first look is able to find.
     pub detection: Detection,
     /// Seed of the first look.
     pub seed: u32,
     /// The first look at every tile.
     pub first_look: ImageComparison,
-    /// What the first look rejected and the second did too: the differences. Regions of whole pictures come first.
+    /// Findings that both looks rejected: the differences. Regions of whole pictures come first.
     pub differences: Vec<Finding>,
-    /// What the first look rejected.
+    /// Number of findings that the first look rejected.
     pub suspects: usize,
     /// The best picture of the scene as it renders now.
     pub picture: Image,
@@ -35,7 +35,7 @@ pub struct Judgement {
 /// Renders the scene and holds it against its golden picture, which has its size.
 ///
 /// # Errors
-/// What the device reports; a golden picture of another size; [`PictureTestError::Interrupted`].
+/// Errors of the device; a golden picture of another size; [`PictureTestError::Interrupted`].
 pub fn judge(
     renderer: &mut dyn Renderer,
     golden: &Golden,

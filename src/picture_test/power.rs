@@ -11,7 +11,7 @@ use crate::output::Image;
 /// Share of the tiles with light in which the change has to be found. In the rest, which is dark and noisy, larger ones are.
 pub const SHARE_OF_TILES: f64 = 0.95;
 
-/// What a number of samples finds.
+/// The change that a number of samples finds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Detection {
     /// Samples per pixel of a render.
@@ -31,7 +31,7 @@ struct TileNoise {
     variance: f64,
 }
 
-/// What is known of the noise of a picture.
+/// The noise of a picture, tile by tile.
 pub struct NoiseOfTiles {
     /// The channel of each tile in which changes are found soonest.
     tiles: Vec<TileNoise>,
@@ -41,11 +41,12 @@ pub struct NoiseOfTiles {
 }
 
 impl NoiseOfTiles {
-    /// Of a picture and the variances of its samples.
+    /// The noise of a picture with these variances of its samples.
     pub fn new(mean: &Image, variances: &[[f32; 3]], settings: &TestSettings) -> Self {
         let layout = Layout { width: mean.width, height: mean.height };
         let regions = layout.tiles(settings.tile);
-        // As the test corrects: half for the tiles and half for the whole, and the tiles in each channel.
+        // The level is corrected as in the test: half for the tiles and half for the whole, and the tiles in
+        // each channel.
         let level = sidak(sidak(settings.false_alarms, 2), 3 * regions.len());
         let distance = quantile(1.0 - 0.5 * level) + quantile(settings.power);
         let noise = |region, channel: usize| {
@@ -65,7 +66,7 @@ impl NoiseOfTiles {
         Self { tiles, distance, margin: TileSettings::default().relative_margin }
     }
 
-    /// What is found by a render of so many samples against a picture of `golden` samples.
+    /// The change that a render of so many samples finds against a picture of `golden` samples.
     pub fn detection(&self, samples: u32, golden: u32, wanted: f64) -> Detection {
         let factor = 1.0 / f64::from(samples) + 1.0 / f64::from(golden);
         let mut changes: Vec<f64> =

@@ -8,7 +8,7 @@ use crate::output::Image;
 use crate::renderer::{Batch, Observer, RenderRequest, Renderer};
 use crate::sampling::hash::mix;
 
-/// What a render is for; renders for different ends share no random numbers.
+/// The purpose of a render; renders for different purposes share no random numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
     /// A part of a golden picture.
@@ -69,7 +69,7 @@ impl Replications {
     /// Renders once more.
     ///
     /// # Errors
-    /// What the device reports; [`PictureTestError::Interrupted`].
+    /// Errors of the device; [`PictureTestError::Interrupted`].
     pub fn render(&mut self, renderer: &mut dyn Renderer, seed: u32, observer: &dyn Observer) -> Result<(), PictureTestError> {
         renderer.set_samples_per_pixel(self.samples);
         let request = RenderRequest { rows: self.rows.clone(), samples: 0..self.samples };

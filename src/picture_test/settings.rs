@@ -1,4 +1,4 @@
-//! What a test is to find, and how surely.
+//! The change that a test is to find, and how surely.
 
 /// How a change is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

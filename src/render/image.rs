@@ -13,13 +13,13 @@ use crate::output::{self, OutputError, PictureFile, PictureFormat, PictureSpec, 
 #[derive(Debug, Clone)]
 pub struct Image {
     pixels: output::Image,
-    /// Of a picture that was rendered; None where it was read.
+    /// The outcome of the render that made the picture; None for a picture that was read.
     rendered: Option<Rendered>,
     /// Warnings about a picture that was read.
     warnings: Vec<String>,
 }
 
-/// What is known of a render beside its pixels.
+/// Facts of a render beside its pixels.
 #[derive(Debug, Clone)]
 struct Rendered {
     provenance: Provenance,
@@ -104,7 +104,7 @@ impl Image {
         self.rendered.as_ref().map(|rendered| rendered.provenance.scene_hash.as_str())
     }
 
-    /// What the render did, of a picture that was rendered.
+    /// The outcome of the render, for a picture that was rendered.
     pub fn outcome(&self) -> Option<&Outcome> {
         self.rendered.as_ref().map(|rendered| &rendered.outcome)
     }

@@ -21,7 +21,8 @@ use crate::scene::{Guiding, LightChoice, Scene};
 /// Gives the checkpoint of a layer that is about to be rendered, if it shall have one.
 pub type LayerCheckpoints<'a, E> = &'a mut dyn FnMut(&Renderer, KernelLayer) -> Result<Option<Checkpoint>, E>;
 
-/// What a layer came to: means, what rounding to them lost, and how many samples they are over. Only parts need the last two.
+/// A rendered layer: means, their rounding errors, and how many samples they are over. Only parts need the
+/// last two.
 struct Rendered {
     kernel: KernelLayer,
     means: Arc<LayerPicture>,
@@ -32,7 +33,7 @@ struct Rendered {
 /// `of_part`, there are also those that joining parts needs. None where the observer stopped it; `checkpoint` then has how far it came.
 ///
 /// # Errors
-/// What the device reports, what temporary files do, and what `checkpoint` says.
+/// Errors of the device, of temporary files, and of `checkpoint`.
 pub fn render_layers<E: From<RenderError>>(
     scene: &Scene,
     options: &RenderOptions,
@@ -127,7 +128,8 @@ fn wide(values: [f32; 3]) -> DVec3 {
     DVec3::from_array(values.map(f64::from))
 }
 
-/// What is met at the pixels' centres. Numbers cannot be averaged; one ray a pixel is soon traced by the CPU.
+/// The identifiers at the pixels' centres. Numbers cannot be averaged; one ray a pixel is soon traced by the
+/// CPU.
 fn ids(scene: &Scene, [left, top, width, height]: [u32; 4]) -> Result<Arc<LayerPicture>, RenderError> {
     // The rays through the pixels' centres need no guide.
     let mut unguided = scene.clone();

@@ -1,4 +1,4 @@
-//! What a render may be asked for beside the scene.
+//! The options of a render beside the scene.
 
 use std::borrow::Cow;
 use std::time::Duration;
@@ -43,7 +43,7 @@ pub struct RenderOptions {
 }
 
 impl RenderOptions {
-    /// What the plan is told.
+    /// The options of the plan.
     pub(super) fn plan_options(&self) -> PlanOptions {
         // A region of some columns leaves pixels out.
         let pixel_list = self.adaptive || self.crop.is_some();
@@ -79,7 +79,7 @@ impl RenderOptions {
         }
     }
 
-    /// What is wrong, in a sentence.
+    /// A contradiction between the options, in a sentence.
     fn contradiction(&self, scene: &Scene) -> Option<String> {
         if let Err(bad) = scene.film.check() {
             return Some(bad.to_string());
@@ -118,7 +118,7 @@ impl RenderOptions {
     }
 }
 
-/// Whether a region has pixels, all of them in the picture.
+/// True if a region has pixels, all of them in the picture.
 #[doc(hidden)]
 pub fn fits([x, y, columns, rows]: [u32; 4], [width, height]: [u32; 2]) -> bool {
     let ends_within = |start: u32, length: u32, end: u32| length > 0 && start.checked_add(length).is_some_and(|last| last <= end);

@@ -1,4 +1,4 @@
-//! What a scene offers to users of the crate.
+//! The methods of a scene for users of the crate.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::load;
 use crate::renderer::Silent;
 use crate::scene::Scene;
 
-/// What a scene is called that has no file.
+/// The name of a scene that has no file.
 const UNNAMED: &str = "scene";
 
 impl Scene {

@@ -1,4 +1,5 @@
-//! What a render did, for other programs: the keys of `--stats` and of a picture's statistics in Python.
+//! The statistics of a render for other programs: the keys of `--stats` and of a picture's statistics in
+//! Python.
 
 use serde::Serialize;
 
@@ -21,7 +22,7 @@ pub struct Stats {
     pub notice: Option<String>,
     /// `bvh4` or `ray_query`; null where the device tests every primitive, and for the CPU reference.
     pub hierarchy: Option<&'static str>,
-    /// What the plan decided for the device, and why; empty for the CPU reference.
+    /// The plan's decisions for the device, with reasons; empty for the CPU reference.
     pub decisions: Vec<Decision>,
     /// The parts of the shaders that are compiled; the rest of them is left out.
     pub compiled_in: Vec<&'static str>,
@@ -60,7 +61,7 @@ pub struct Stats {
     pub peak_device_bytes: u64,
     /// Largest resident set of the process so far; null where the system does not say.
     pub peak_host_bytes: Option<u64>,
-    /// What was expected of it before: the peak is within a factor of two. Null where nothing was.
+    /// The peak that was expected before, right within a factor of two. Null where nothing was expected.
     pub expected_host_bytes: Option<u64>,
     /// Mean radiance of the picture.
     pub mean: [f64; 3],
@@ -85,7 +86,8 @@ pub struct Seconds {
 }
 
 impl Stats {
-    /// What the scene, as it was rendered, and the render know. What the picture and the program know starts empty.
+    /// The part that the scene, as it was rendered, and the render know. The fields of the picture and the
+    /// program start empty.
     pub fn new(scene: &Scene, options: &RenderOptions, outcome: &Outcome) -> Self {
         let report = &outcome.report;
         let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
@@ -136,7 +138,7 @@ impl Stats {
         }
     }
 
-    /// Of a picture in memory that was rendered so.
+    /// The statistics of a picture in memory that was rendered so.
     pub fn of_image(image: &Image, scene: &Scene, options: &RenderOptions) -> Option<Self> {
         let outcome = image.outcome()?;
         let mut stats = Self::new(scene, options, outcome);
@@ -154,8 +156,8 @@ impl Stats {
         Some(stats)
     }
 
-    /// What the finished picture is like: samples of its pixels that have fewest (on average, where samples follow the noise), and its mean
-    /// radiance.
+    /// Adds the picture's own figures: samples of the pixels that have fewest (on average, where samples
+    /// follow the noise), and its mean radiance.
     pub fn picture(&mut self, scene: &Scene, outcome: &Outcome, samples: u32, mean: [f64; 3]) {
         self.spp_done = samples;
         self.mean = mean;

@@ -58,10 +58,11 @@ impl Renderer {
         ChosenDevice::begin(&options.device, &options.plan_options())
     }
 
-    /// As [`Renderer::new`], with a choice that began with these options and a scene to which they are applied.
+    /// Does the work of [`Renderer::new`] with a choice that began with these options and a scene to which
+    /// they are applied.
     ///
     /// # Errors
-    /// As [`Renderer::new`].
+    /// The errors of [`Renderer::new`].
     #[doc(hidden)]
     pub fn on(choice: ChosenDevice, scene: &Scene, options: &RenderOptions) -> Result<Self, RenderError> {
         let ChosenRenderer { renderer, notice } = choice.renderer(scene, &options.plan_options())?;
@@ -76,7 +77,7 @@ impl Renderer {
     /// one size and the same settings.
     ///
     /// # Errors
-    /// As [`Renderer::new`]. There is no renderer any more then.
+    /// The errors of [`Renderer::new`]. There is no renderer any more then.
     #[doc(hidden)]
     pub fn at_frame(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
         let Self { renderer, notice, options, film, size, bulk, memory, .. } = self;
@@ -92,7 +93,7 @@ impl Renderer {
     /// differ in their cameras alone, all else stays. Options are those that it was made with, applied to the scene.
     ///
     /// # Errors
-    /// As [`Renderer::new`]. There is no renderer any more then.
+    /// The errors of [`Renderer::new`]. There is no renderer any more then.
     #[doc(hidden)]
     pub fn with_scene(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
         let Self { renderer, notice, options, film, provenance: earlier, memory, .. } = self;
@@ -118,13 +119,14 @@ impl Renderer {
         &self.bulk
     }
 
-    /// What the headers of pictures of the scene say that are rendered with these options on a device of this name.
+    /// The header entries of pictures that are rendered of the scene with these options on a device of this
+    /// name.
     #[doc(hidden)]
     pub fn provenance_of(scene: &Scene, options: &RenderOptions, device: &str) -> Provenance {
         Self::provenance_with(&BulkDigest::of(scene), scene, options, device)
     }
 
-    /// The same, with what was hashed of the scene's meshes and pictures before.
+    /// The provenance, computed with a digest of the scene's meshes and pictures that is known already.
     #[doc(hidden)]
     pub fn provenance_with(bulk: &BulkDigest, scene: &Scene, options: &RenderOptions, device: &str) -> Provenance {
         Provenance {
@@ -157,7 +159,7 @@ impl Renderer {
     /// Renders, and hands over finished rows from the top, each once. Where the observer stops it, the rows hold what was done until then.
     ///
     /// # Errors
-    /// What the device or `on_band` reports. Where the device is lost, rows hold what was read from it before, and the error follows.
+    /// Errors of the device and of `on_band`. If the device is lost, rows hold what was read from it before, and the error follows.
     pub fn render(&mut self, observer: &dyn Observer, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> Result<Outcome, Error> {
         Ok(self.render_from(Instant::now(), observer, None, on_band)?)
     }
@@ -165,7 +167,7 @@ impl Renderer {
     /// Renders the whole picture into memory.
     ///
     /// # Errors
-    /// What the device reports.
+    /// Errors of the device.
     pub fn image(&mut self, observer: &dyn Observer) -> Result<Image, Error> {
         let mut bands = Vec::new();
         let outcome = self.render(observer, &mut |band| {
@@ -175,10 +177,11 @@ impl Renderer {
         Ok(Image::rendered(self.size, &bands, self.provenance.clone(), outcome))
     }
 
-    /// As [`Renderer::render`], with a time limit that counts from `start`, and kept in a checkpoint: what earlier renders took counts too.
+    /// Renders as [`Renderer::render`] does, with a time limit that counts from `start`, and saves its state
+    /// in a checkpoint; the time of earlier renders counts too.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
+    /// The errors of [`Renderer::render`].
     #[doc(hidden)]
     pub fn render_from(
         &mut self,
@@ -198,7 +201,7 @@ impl Renderer {
     /// Renders the first samples of every pixel alone, for a look at the picture before the rest of it is rendered.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
+    /// The errors of [`Renderer::render`].
     #[doc(hidden)]
     pub fn render_first(
         &mut self,
@@ -228,14 +231,14 @@ impl Renderer {
         progressive::render_kept(renderer, self.film, seed, goal, observer, checkpoint, &mut cropped)
     }
 
-    /// What the options ask for; a deadline is some time.
+    /// The goal that the options set; a deadline is some time.
     fn goal(&self) -> Goal {
         let RenderOptions { first_sample, time_limit, target_error, adaptive, .. } = self.options;
         let samples = first_sample..first_sample + self.provenance.settings.spp;
         Goal { samples, region: self.options.crop, deadline: time_limit.map(|_| Instant::now()), target_error, adaptive }
     }
 
-    /// What decides the picture, and from what state a render of it can go on.
+    /// The values that decide the picture, and that a state must share so that a render can go on from it.
     #[doc(hidden)]
     pub fn identity(&self) -> Identity {
         let is_one_batch = progressive::is_one_batch(&self.goal(), self.renderer.holds_whole_film());
@@ -248,7 +251,7 @@ impl Renderer {
         self.film
     }
 
-    /// What the headers of the picture's files say.
+    /// The header entries of the picture's files.
     #[doc(hidden)]
     pub fn provenance(&self) -> &Provenance {
         &self.provenance

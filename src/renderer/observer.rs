@@ -9,7 +9,8 @@ pub trait Observer: Sync {
     /// True: stop soon, deliver what is done.
     fn stop_requested(&self) -> bool;
 
-    /// Whether [`Observer::rows_so_far`] shall be called now. Asked after each pass, so the answer must be quick.
+    /// True if [`Observer::rows_so_far`] shall be called now. Asked after each pass, so the answer must be
+    /// quick.
     fn wants_rows(&self) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! Where what a renderer finishes goes.
+//! The receivers of finished bands and of states.
 
 use std::io;
 
@@ -13,12 +13,12 @@ pub trait Sink {
     /// The render cannot go on, because nobody takes what it finishes.
     fn band(&mut self, band: Band) -> io::Result<()>;
 
-    /// Whether it takes states. If not, renderers need not be able to give one.
+    /// True if it takes states. If not, renderers need not be able to give one.
     fn takes_states(&self) -> bool {
         false
     }
 
-    /// Whether it is time for the next state.
+    /// True if it is time for the next state.
     fn wants_state(&self) -> bool {
         false
     }
@@ -26,7 +26,7 @@ pub trait Sink {
     /// Takes how far the batch is: now and then, and where the render breaks off.
     ///
     /// # Errors
-    /// As [`Sink::band`].
+    /// The errors of [`Sink::band`].
     fn state(&mut self, state: BatchState) -> io::Result<()> {
         drop(state);
         Ok(())
@@ -36,7 +36,7 @@ pub trait Sink {
 /// Between two pieces of a render, the first of which is whole: gives the sink the state there, if it is time for one or the render `stops`.
 ///
 /// # Errors
-/// As [`Sink::state`].
+/// The errors of [`Sink::state`].
 pub fn keep_between(sink: &mut dyn Sink, stops: bool, state: &BatchState) -> io::Result<()> {
     if sink.takes_states() && (stops || sink.wants_state()) { sink.state(state.clone()) } else { Ok(()) }
 }

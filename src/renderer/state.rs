@@ -25,7 +25,7 @@ pub struct BatchState {
 }
 
 impl BatchState {
-    /// Of a batch that is between two bands, or not begun: these rows have no samples yet.
+    /// The state of a batch that is between two bands, or not begun: these rows have no samples yet.
     pub fn before(rows: Range<u32>, tally: Tally) -> Self {
         Self { rows, done: 0, sweep: 0, reached: 0, film: Arc::new(FilmState::empty()), tally }
     }
@@ -36,7 +36,7 @@ pub const CLAMP_UNITS: f64 = 1024.0;
 /// The most luminance that is counted of one pixel in one pass, in these parts.
 pub const MOST_CLAMP_UNITS: f64 = 4e9;
 
-/// What was counted since the batch began.
+/// Counts since the batch began.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Tally {
     pub rays: u64,
@@ -54,7 +54,7 @@ pub struct Tally {
 pub enum FilmState {
     /// The sums of a graphics device: (radiance, [number of samples](crate::film::count_word)), and (what the radiance's rounding lost, squared luminance).
     Single { sums: Vec<[f32; 4]>, compensations: Vec<[f32; 4]> },
-    /// As the CPU reference sums: (radiance, squared luminance), and numbers of samples.
+    /// The sums of the CPU reference: (radiance, squared luminance), and numbers of samples.
     Double { sums: Vec<[f64; 4]>, samples: Vec<u32> },
 }
 
@@ -62,7 +62,7 @@ pub enum FilmState {
 pub type SinglePixel = ([f32; 4], [f32; 4]);
 
 impl FilmState {
-    /// Of rows without samples.
+    /// The sums of rows without samples.
     pub fn empty() -> Self {
         Self::Double { sums: Vec::new(), samples: Vec::new() }
     }
@@ -75,7 +75,7 @@ impl FilmState {
         }
     }
 
-    /// Whether it has sums of no pixel.
+    /// True if it has sums of no pixel.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -23,7 +23,7 @@ pub enum Ending {
     OutOfTime,
 }
 
-/// What a renderer looks at between two pieces of its work.
+/// The conditions that a renderer checks between two pieces of its work.
 pub struct Stopping<'a> {
     observer: &'a dyn Observer,
     deadline: Option<Instant>,
@@ -36,8 +36,8 @@ impl<'a> Stopping<'a> {
         Self { observer, deadline, asked: OnceLock::new() }
     }
 
-    /// Whether to end after a pass. `is_whole`: every pixel has its first sample. For that the observer waits a little, and a time limit waits
-    /// as long as it takes.
+    /// The reason to end after a pass, if there is one. `is_whole` says that every pixel has its first
+    /// sample. The observer waits a little for that, and a time limit waits as long as it takes.
     pub fn after_pass(&self, is_whole: bool) -> Option<Ending> {
         match self.asked_since() {
             Some(since) if is_whole || since > PATIENCE => return Some(Ending::Interrupted),
@@ -46,12 +46,13 @@ impl<'a> Stopping<'a> {
         self.late_by(LATENESS).filter(|late| *late && is_whole).map(|_| Ending::OutOfTime)
     }
 
-    /// Whether to end after a band whose samples are done, or after a batch, where nobody waits for the rest.
+    /// The reason to end after a band whose samples are done, or after a batch, where nobody waits for the
+    /// rest.
     pub fn between_bands(&self) -> Option<Ending> {
         self.asked_since().map(|_| Ending::Interrupted)
     }
 
-    /// Whether to give up paths that do not end.
+    /// The reason to give up paths that do not end, if there is one.
     pub fn gives_up_paths(&self) -> Option<Ending> {
         if self.asked_since().is_some_and(|since| since > LONGEST_PATH) {
             return Some(Ending::Interrupted);

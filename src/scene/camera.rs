@@ -1,4 +1,4 @@
-//! Where the picture is taken from.
+//! The camera.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! What numbers and pictures of a scene may be.
+//! The ranges of a scene's numbers and pictures.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ const LONGEST_SIDE: u32 = 1 << 30;
 /// 3·10³⁸, and a scene is moved to its camera, which may stand on the other side.
 pub const FARTHEST: f64 = 1e18;
 
-/// What is wrong, in words.
+/// The mistake, in words.
 pub type Check = Result<(), String>;
 
 /// Neither 0 nor infinite.
@@ -19,7 +19,8 @@ pub fn is_positive(number: f64) -> bool {
     number.is_finite() && number > 0.0
 }
 
-/// Whether what reaches this far from the origin can be rendered; not where it is no number.
+/// Checks that a shape that reaches this far from the origin can be rendered. A reach that is not a number
+/// cannot.
 pub fn within_range(reach: f64) -> Check {
     if reach <= FARTHEST {
         return Ok(());
@@ -34,12 +35,12 @@ pub fn is_amount(color: DVec3) -> bool {
     color.is_finite() && color.min_element() >= 0.0
 }
 
-/// Of length 1.
+/// True for a vector of length 1.
 pub fn is_direction(direction: DVec3) -> bool {
     (direction.length_squared() - 1.0).abs() < 1e-6
 }
 
-/// It has as many texels as it says.
+/// Checks that the image has as many texels as it says.
 pub fn image(image: &ImageData) -> Check {
     let ImageData { width, height, texels, .. } = image;
     let count = u64::from(*width) * u64::from(*height);

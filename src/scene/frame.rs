@@ -15,7 +15,7 @@ impl Scene {
     /// frame itself. Meshes, textures and whatever else does not change are shared.
     ///
     /// # Errors
-    /// What cannot be rendered there: a camera that looks at the point it stands at, a shape that is flattened.
+    /// A frame that cannot be rendered: a camera that looks at the point it stands at, a shape that is flattened.
     pub fn at_frame(&self, frame: f64) -> Result<Self, InvalidScene> {
         let animation = &self.animation;
         let mut scene = self.clone();
@@ -57,7 +57,7 @@ impl Scene {
 }
 
 impl Shape {
-    /// Whether it is the same mesh, or neither is one.
+    /// True if both have the same mesh, or neither has one.
     fn has_mesh_of(&self, other: &Self) -> bool {
         match (&self.geometry, &other.geometry) {
             (Geometry::Mesh(mesh), Geometry::Mesh(other)) => Arc::ptr_eq(mesh, other),
@@ -67,13 +67,13 @@ impl Shape {
 }
 
 impl Scene {
-    /// Whether all meshes are those of another frame of the same scene: none is bent differently.
+    /// True if all meshes are those of another frame of the same scene: none is deformed differently.
     pub fn has_meshes_of(&self, other: &Self) -> bool {
         self.shapes.len() == other.shapes.len()
             && self.shapes.iter().zip(&other.shapes).all(|(shape, other)| shape.has_mesh_of(other))
     }
 
-    /// Whether all shapes stand and move, and all lights shine, as in another frame of the same scene, and the camera moves or rests as there.
+    /// True if all shapes stand and move, and all lights shine, as in another frame of the same scene, and the camera moves or rests as there.
     pub fn shapes_stand_as_in(&self, other: &Self) -> bool {
         let same = |(shape, other): (&Shape, &Shape)| shape.transform == other.transform && shape.motion == other.motion;
         self.camera.shutter == other.camera.shutter

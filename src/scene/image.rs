@@ -42,7 +42,7 @@ impl Channel {
         texel[self as usize]
     }
 
-    /// Of a colour that is opaque.
+    /// This channel of an opaque colour.
     pub fn of_color(self, color: DVec3) -> f64 {
         self.of([color.x, color.y, color.z, 1.0])
     }
@@ -53,7 +53,7 @@ impl Channel {
 pub enum Texels {
     /// Integers of eight bits for red, green, blue and alpha; the space is that of the colours.
     Bytes { codes: Vec<[u8; 4]>, space: ColorSpace },
-    /// The same of sixteen bits.
+    /// Texels of sixteen bits.
     Shorts { codes: Vec<[u16; 4]>, space: ColorSpace },
     /// Half-precision numbers: red, green, blue and alpha.
     Half(Vec<[u16; 4]>),
@@ -63,7 +63,7 @@ pub enum Texels {
     FloatAlpha(Vec<[f32; 4]>),
 }
 
-/// What the integers from 0 to the largest of so many bits stand for.
+/// The meaning of the integers from 0 to the largest of so many bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Code {
     Srgb8,
@@ -173,7 +173,7 @@ impl Texels {
         }
     }
 
-    /// As they stand in memory.
+    /// The texels as bytes in memory.
     pub fn as_bytes(&self) -> &[u8] {
         match self {
             Self::Bytes { codes, .. } => bytemuck::cast_slice(codes),
@@ -184,7 +184,7 @@ impl Texels {
         }
     }
 
-    /// Of the same kind, with none of them.
+    /// Texels of the same kind, but none of them.
     pub fn emptied(&self) -> Self {
         match self {
             Self::Bytes { space, .. } => Self::Bytes { codes: Vec::new(), space: *space },

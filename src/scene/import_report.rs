@@ -1,13 +1,13 @@
-//! What an import could not take over as it was written.
+//! The losses of an import: parts of a file that it could not take over as they were written.
 
 use serde::Serialize;
 
 /// Everything of an imported file that is not rendered exactly as it says.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct ImportReport {
-    /// What has no effect.
+    /// Parts that have no effect.
     pub dropped: Vec<ReportItem>,
-    /// What has something else in its place that looks alike.
+    /// Parts that something similar stands in for.
     pub approximated: Vec<ReportItem>,
 }
 
@@ -16,12 +16,12 @@ pub struct ImportReport {
 pub struct ReportItem {
     /// The key, extension, node or plugin.
     pub what: String,
-    /// Where it occurs first.
+    /// The place of its first occurrence.
     #[serde(rename = "where")]
     pub place: String,
     /// How often it occurs.
     pub count: usize,
-    /// What is done instead.
+    /// The substitute.
     pub instead: String,
 }
 

@@ -29,11 +29,11 @@ pub struct Instances {
     pub places: Arc<Vec<DAffine3>>,
     /// From the places on to the world at shutter time 0.
     pub transform: Transform,
-    /// What all of them are made of in place of the group's own materials; faces of a `pass` material stay openings.
+    /// The material in place of all of the group's own materials; faces of a `pass` material stay openings.
     pub material: Option<MaterialId>,
     /// How each moves while the shutter is open, about where it puts the group's (0, 0, 0); None: at rest.
     pub motion: Option<Motion>,
-    /// What the motion is about instead, in the world at shutter time 0.
+    /// The point that the motion is about instead, in the world at shutter time 0.
     pub pivot: Option<DVec3>,
 }
 
@@ -67,7 +67,7 @@ impl Instances {
         self.places.iter().map(move |place| all * *place)
     }
 
-    /// What the motion of the instance with this map is about.
+    /// The point that the motion of the instance with this map is about.
     pub fn origin_of_motion(&self, map: &DAffine3) -> DVec3 {
         self.pivot.unwrap_or(map.translation)
     }
@@ -79,7 +79,7 @@ impl Instances {
         self.maps().map(of_map).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether all of them stay within the range of numbers.
+    /// Checks that all of them stay within the range of numbers.
     pub(super) fn check_reach(&self, ball: Ball, shutter: [f64; 2]) -> Check {
         for (place, map) in self.maps().enumerate() {
             let reach_from =

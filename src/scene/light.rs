@@ -48,10 +48,10 @@ trait OutsideLight {
     fn parameters(&self) -> OutsideParameters<'_>;
 }
 
-/// What shaders know of the light from outside the scene.
+/// The light from outside the scene, as shaders read it.
 #[derive(Debug, Clone, Copy)]
 pub enum OutsideParameters<'a> {
-    /// The same radiance from everywhere.
+    /// One radiance from all directions.
     Constant(DVec3),
     /// Another one from each direction.
     Varying {
@@ -59,7 +59,7 @@ pub enum OutsideParameters<'a> {
         mean_luminance: f64,
         /// Texels that directions are drawn by as well.
         map: Option<(&'a ImageData, MapRows)>,
-        /// What else its shader reads.
+        /// Further words that its shader reads.
         words: [DVec4; 3],
     },
 }
@@ -75,7 +75,7 @@ pub struct Environment {
     pub mirrored: bool,
 }
 
-/// Where the rows of a lat-long map lie between the poles.
+/// The rows of a lat-long map between the poles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MapRows {
     /// The first and the last lie half a row within: each row covers as much of the angle.
@@ -243,7 +243,7 @@ macro_rules! lights {
         }
 
         impl Light {
-            /// What scene files call its kind.
+            /// The name of its kind in scene files.
             pub fn kind_name(&self) -> &'static str {
                 match self {
                     $(Self::$environment(_) => stringify!($environment_module),)*
@@ -251,7 +251,7 @@ macro_rules! lights {
                 }
             }
 
-            /// It is the radiance from outside the scene.
+            /// True for the radiance from outside the scene.
             pub fn is_environment(&self) -> bool {
                 match self {
                     $(Self::$environment(_) => true,)*
@@ -259,7 +259,7 @@ macro_rules! lights {
                 }
             }
 
-            /// What samplers and shaders know of it, if it is a delta light.
+            /// The parameters for samplers and shaders, if it is a delta light.
             pub fn delta(&self) -> Option<LightParameters> {
                 match self {
                     $(Self::$environment(_) => None,)*
@@ -267,7 +267,8 @@ macro_rules! lights {
                 }
             }
 
-            /// What shaders know of it, if it is light from outside the scene, and the switch of its own shader.
+            /// The parameters for shaders and the switch of its own shader, if it is light from outside the
+            /// scene.
             pub fn outside(&self) -> Option<(OutsideParameters<'_>, &'static str)> {
                 match self {
                     $(Self::$environment(light) => Some((light.parameters(), stringify!($switch))),)*
@@ -294,7 +295,7 @@ macro_rules! lights {
 light_table!(lights);
 
 impl Light {
-    /// What is wrong with it, in words.
+    /// Checks its numbers; the error is the mistake, in words.
     pub(super) fn check(&self) -> Check {
         self.model().check()
     }
@@ -304,7 +305,7 @@ impl Light {
         self.model_mut().set(at);
     }
 
-    /// Whether it gives the light that another does.
+    /// True if it gives the light that another does.
     pub(super) fn shines_as(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Environment(a), Self::Environment(b)) => {
@@ -335,7 +336,7 @@ impl Light {
         self.model().texture()
     }
 
-    /// The same to look at.
+    /// Its picture, if it has one, to read.
     pub fn image(&self) -> Option<&ImageData> {
         self.model().image()
     }

@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-/// What a light is at a frame. What is None stays as it is.
+/// The state of a light at a frame. Fields that are None stay as they are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LightAt {
     pub position: Option<DVec3>,
-    /// Of length 1.
+    /// A direction of length 1.
     pub direction: Option<DVec3>,
     /// Intensity, irradiance or radiance.
     pub strength: Option<DVec3>,
@@ -29,7 +29,7 @@ impl LightAt {
 
     /// Turns a direction that belongs to the light.
     pub(super) fn take_along(&self, direction: &mut DVec3) {
-        // Where nothing is turned, no last bit changes.
+        // Without a rotation, no last bit changes.
         if self.along.matrix3 != DMat3::IDENTITY {
             *direction = self.along.transform_vector3(*direction).normalize_or_zero();
         }

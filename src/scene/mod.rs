@@ -1,4 +1,4 @@
-//! What a person wrote, resolved: names looked up, files read, units known, nothing of the GPU.
+//! The scene as a person wrote it, resolved: names looked up, files read, units known, nothing of the GPU.
 //!
 //! A [`Scene`] is plain data. [`crate::packed`] packs it for the device, [`crate::reference`] renders it as it stands, so
 //! that a mistake in packing shows as a difference between the two.

@@ -49,16 +49,16 @@ pub struct Scene {
     /// Lights that are not surfaces. Surfaces emit through their material.
     #[doc(hidden)]
     pub lights: Vec<Light>,
-    /// What could not be taken as written and was replaced or left out, in sentences that name the file.
+    /// Parts that could not be taken as written and were replaced or left out, in sentences that name the
+    /// file.
     pub warnings: Vec<String>,
-    /// What is not rendered exactly as an imported file says it.
+    /// Parts of an imported file that are not rendered exactly.
     #[doc(hidden)]
     pub import_report: ImportReport,
-    /// What is elsewhere at another frame; see [`Scene::at_frame`].
+    /// The keyframes, by which parts of the scene are elsewhere at another frame; see [`Scene::at_frame`].
     #[doc(hidden)]
     pub animation: Arc<Animation>,
-    /// Of a frame in which shapes or lights may be elsewhere than in others: the shapes with keyframes, each as it is turned and scaled at the first
-    /// frame of all keys, where the trees are built that follow them. None: what is shown is no such frame.
+    /// The first poses, in a frame in which shapes or lights may be elsewhere than in others: the shapes with keyframes, each as it is turned and scaled at the first frame of all keys. Trees are built in these poses and then follow. None for the scene at rest.
     #[doc(hidden)]
     pub first_poses: Option<Arc<[(usize, DMat3)]>>,
     /// The files that meshes and pictures came from.
@@ -90,8 +90,7 @@ impl Scene {
         is_shown(&gathering) && (is_shown(&emitting) || self.lights.iter().any(is_map))
     }
 
-    /// Of each material: whether it, or one of those that it blends at any depth, is as `wanted`. From those that are, up to all that are made
-    /// of them, so the time does not depend on how deep blends are nested.
+    /// For each material, true if it, or one of those that it blends at any depth, is as `wanted`. The search goes from those that are up to all that are made of them, so the time does not depend on how deep blends are nested.
     #[doc(hidden)]
     pub fn materials_that(&self, wanted: impl Fn(&Material) -> bool) -> Vec<bool> {
         let mut wholes: Vec<Vec<MaterialId>> = vec![Vec::new(); self.materials.len()];
@@ -111,7 +110,7 @@ impl Scene {
         found
     }
 
-    /// Of each material: whether its coat, or that of one that it blends at any depth, lies about another normal than what is below.
+    /// For each material, true if its coat, or that of one that it blends at any depth, lies about another normal than the base below it.
     #[doc(hidden)]
     pub fn coat_normals_differ(&self) -> Vec<bool> {
         let is_coated =
@@ -122,7 +121,8 @@ impl Scene {
         (0..self.materials.len()).map(differs).collect()
     }
 
-    /// What takes light behind a surface of each material; of a blend, what the first part does that encloses something.
+    /// For each material, the attenuation behind a surface of it; a blend has that of the first part that
+    /// encloses something.
     #[doc(hidden)]
     pub fn volumes_behind(&self) -> Vec<Option<Attenuation>> {
         let own = |material: &Material| match &material.kind {
@@ -156,7 +156,7 @@ impl Scene {
         self.any_part(material, &|part| part.emission.is_some())
     }
 
-    /// Whether the material or one of those it blends, at any depth, is as `wanted`.
+    /// True if the material or one of those it blends, at any depth, is as `wanted`.
     fn any_part(&self, material: MaterialId, wanted: &dyn Fn(&Material) -> bool) -> bool {
         let mut seen = vec![false; self.materials.len()];
         let mut to_visit = vec![material];

@@ -58,10 +58,11 @@ impl MotionStep {
         }
     }
 
-    /// Whether the step can be followed over the whole shutter, whose times are 0 at rest and 1 where the step is reached.
+    /// Checks that the step can be followed over the whole shutter, whose times are 0 at rest and 1 where the
+    /// step is reached.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// The mistake, in words.
     pub fn check(self, [open, close]: [f64; 2]) -> Result<(), String> {
         match self {
             Self::Scale(scale) => {
@@ -90,10 +91,10 @@ impl Motion {
         if self.rest == 0.0 && self.reached == 1.0 { time } else { (time - self.rest) / (self.reached - self.rest) }
     }
 
-    /// Whether all steps can be followed over the whole shutter, and lead to where numbers are finite.
+    /// Checks that all steps can be followed over the whole shutter, and lead to where numbers are finite.
     ///
     /// # Errors
-    /// What is wrong, in words, and in which step if it is a single one.
+    /// The mistake, in words, and its step if it is in a single one.
     pub fn check(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
         let shares = shutter.map(|time| self.share(time));
         for (index, step) in self.steps.iter().enumerate() {
@@ -102,7 +103,8 @@ impl Motion {
         self.check_ends(shutter, DVec3::ZERO).map_err(|message| (None, message))
     }
 
-    /// Whether numbers stay in their range where what stands about `origin` is moved as the shutter opens and closes.
+    /// Checks that numbers stay in their range for a shape about `origin` that is moved as the shutter opens
+    /// and closes.
     pub(super) fn check_ends(&self, shutter: [f64; 2], origin: DVec3) -> Result<(), String> {
         let ends = shutter.map(|time| self.at(time, origin));
         let in_range = |map: &DAffine3| map.to_cols_array().iter().all(|number| number.abs() <= FARTHEST);
@@ -120,8 +122,7 @@ impl Motion {
         DAffine3::from_translation(origin) * moved
     }
 
-    /// Whether what is at rest within `radius` of `origin` stays within the range of numbers. Boxes around what moves are larger than it by a part
-    /// of the way that it goes, so that way counts too.
+    /// Checks that a shape within `radius` of `origin` at rest stays within the range of numbers. Boxes around moving shapes are larger by a part of the way that they go, so that way counts too.
     pub(super) fn check_reach(&self, shutter: [f64; 2], origin: DVec3, radius: f64) -> Check {
         let (farthest, speed) = self.bounds(radius, shutter);
         within_range(origin.length() + farthest + speed * (shutter[1] - shutter[0]))

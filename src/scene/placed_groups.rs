@@ -1,4 +1,4 @@
-//! What must hold of a scene's groups and instances, and what is known of all of them together.
+//! The rules for a scene's groups and instances, and facts about all of them together.
 
 use super::check::Check;
 use super::instance::{Ball, Group, Instances, is_singular};
@@ -28,7 +28,7 @@ impl Scene {
         format!("instance {left} beyond the last")
     }
 
-    /// What is wrong with a group, whose shapes have been checked by themselves.
+    /// Checks a group whose shapes have been checked by themselves; the error is the mistake.
     pub(super) fn check_group(&self, group: &Group) -> Check {
         if group.shapes.iter().any(|shape| !matches!(shape.geometry, Geometry::Mesh(_))) {
             return Err("a group consists of meshes; other shapes stand in the scene by themselves".into());
@@ -39,7 +39,8 @@ impl Scene {
         Ok(())
     }
 
-    /// What is wrong with instances of a group, in words. `textured` and `emits` are of each material, `balls` around each group.
+    /// Checks instances of a group; the error is the mistake, in words. `textured` and `emits` have a value
+    /// for each material, and `balls` a bounding ball for each group.
     pub(crate) fn check_instances(
         &self,
         instances: &Instances,

@@ -1,8 +1,7 @@
 //! Scenes that stand far from the origin, brought near it.
 //!
 //! Coordinates in single precision have seven digits. Of a room one unit wide that stands a million units away, one digit would be left.
-//! What a picture shows depends on where things are relative to the camera alone, so renderers first move such a scene, in double precision,
-//! until its camera is the origin. Scenes that stand near the origin stay as they are, to the bit.
+//! The picture depends on where things are relative to the camera alone, so renderers first move such a scene, in double precision, until its camera is the origin. Scenes that stand near the origin stay as they are, to the bit.
 
 use std::borrow::Cow;
 
@@ -15,7 +14,8 @@ use super::transform::TransformStep;
 const FAR: f64 = 4.0;
 
 impl Scene {
-    /// What renderers take for the origin: (0, 0, 0), or the camera's position where the scene stands far from the origin.
+    /// The point that renderers take for the origin: (0, 0, 0), or the camera's position where the scene
+    /// stands far from the origin.
     #[doc(hidden)]
     pub fn center(&self) -> DVec3 {
         let camera = self.camera.position;

@@ -1,4 +1,4 @@
-//! What single precision holds of a scene, and what not: docs/stress.md measures it.
+//! The limits of single precision for a scene: docs/stress.md measures them.
 
 use super::instance::Instances;
 use super::model::Scene;
@@ -41,7 +41,7 @@ fn sentence(label: &str, what: &str, length: f64) -> String {
     )
 }
 
-/// What is too long or too short, and how long it is.
+/// The kind and length of a part that is too long or too short.
 fn beyond(shape: &Shape) -> Option<(&'static str, f64)> {
     match shape.geometry.extent(&shape.transform.to_affine())? {
         Extent::LongestEdge(length) => (length > LONGEST_EDGE_OF_QUAD).then_some(("its longest edge is", length)),

@@ -1,4 +1,4 @@
-//! Where the bulk of a scene came from, so that a scene file can name it again.
+//! The origin of a scene's bulk, so that a scene file can name its files again.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub struct Sources {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImageSource {
     pub path: PathBuf,
-    /// As it was asked for; None: the format's own.
+    /// The colour space that was asked for; None for the format's own.
     pub color_space: Option<ColorSpace>,
     /// Factor of its values.
     pub scale: f64,
@@ -34,7 +34,7 @@ pub struct MeshSource {
     pub replaced: Vec<(String, String)>,
 }
 
-// What is known by its address is also remembered, weakly: as long as it is, no other has that address.
+// Objects are known by their address, and weakly remembered, so that no other object can get the address.
 impl Sources {
     pub fn add_image(&mut self, image: &Arc<ImageData>, source: ImageSource) {
         self.images.insert(address(image), (Arc::downgrade(image), source));

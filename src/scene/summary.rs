@@ -17,7 +17,7 @@ use crate::choice::Choice;
 /// A scene of at most so many primitives is small: kernels hold its geometry as constants, and trial runs count costs so.
 pub const FEW_PRIMITIVES: usize = 64;
 
-/// What a scene consists of. Maps go from the scene file's name of a type to how often it occurs.
+/// The contents of a scene. Maps go from the scene file's name of a type to how often it occurs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SceneSummary {
     pub name: String,

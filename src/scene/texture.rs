@@ -52,12 +52,12 @@ impl ColorInput {
         }
     }
 
-    /// What is looked up, times its factor, is squared.
+    /// True if the looked-up value, times its factor, is squared.
     pub fn is_squared(&self) -> bool {
         matches!(self, Self::SquaredTexture(_) | Self::Channel(ChannelInput { is_squared: true, .. }))
     }
 
-    /// The same times a factor; of a squared one, the square of the product.
+    /// The input times a factor; a squared input becomes the square of the product.
     #[must_use]
     pub fn scaled(self, by: DVec3) -> Self {
         let channel = |texture| ChannelInput { texture, channel: Channel::R, factor: by, is_squared: true };
@@ -88,7 +88,7 @@ pub struct Texture {
     pub name: String,
     pub kind: TextureKind,
     pub transform: UvTransform,
-    /// It lies by the second texture coordinates of meshes that have two.
+    /// True if the texture uses the second texture coordinates of meshes that have two.
     pub by_second_uvs: bool,
     /// A normal map that lies by the second ones bends along the directions in which the first grow.
     pub bends_by_first_uvs: bool,
@@ -105,9 +105,9 @@ pub struct Texture {
 /// How a texture bends the normals of materials that have it for their normal map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Relief {
-    /// It holds directions, of which red and green are multiplied by this.
+    /// Directions, whose red and green are multiplied by this.
     Normals(f64),
-    /// It holds heights along the normal, in units of this length.
+    /// Heights along the normal, in units of this length.
     Heights(f64),
 }
 
@@ -138,7 +138,7 @@ impl Texture {
         self.relief == Relief::default() && !self.shadows_bent_normals
     }
 
-    /// Where in itself the texture is looked up for texture coordinates that its kind has scaled.
+    /// The place in the texture for texture coordinates that its kind has scaled.
     pub fn placed(&self, scaled: DVec2) -> DVec2 {
         self.transform.rotation() * scaled + DVec2::from(self.transform.offset)
     }
@@ -316,6 +316,6 @@ impl TextureWrap {
 pub enum TextureFilter {
     Bilinear,
     Nearest,
-    /// Of each block of 2 × 2 texels, the plane through the upper left, upper right and lower left ones: colours of a triangle's corners.
+    /// The plane through the upper left, upper right and lower left texels of each block of 2 × 2: colours of a triangle's corners.
     Triangle,
 }

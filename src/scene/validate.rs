@@ -1,4 +1,4 @@
-//! What must hold of a scene before a renderer may take it.
+//! The rules that a scene keeps before a renderer may take it.
 //!
 //! Files are checked as they are read, with the line of each mistake. A scene that a program builds by hand is checked here, whichever
 //! device renders it: both the packed scene and the reference look indices up without asking again.
@@ -19,11 +19,11 @@ use super::texture::{ChannelInput, ColorInput, Relief, Texture, TextureId, Textu
 pub const MOST_OCTAVES: u32 = 16;
 /// Corners of a polygonal aperture.
 pub const BLADES: std::ops::RangeInclusive<u32> = 3..=64;
-/// What is wrong with a scene, and with which part of it.
+/// A mistake in a scene, with the part that has it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{part}: {message}")]
 pub struct InvalidScene {
-    /// As reports name it: a shape's label, "material `name`", "camera".
+    /// The part's name in reports: a shape's label, "material `name`", "camera".
     pub part: String,
     pub message: String,
 }
@@ -195,7 +195,7 @@ impl Scene {
     }
 }
 
-/// Whether pictures can be taken with the camera.
+/// Checks that pictures can be taken with the camera.
 pub(super) fn check_camera(camera: &Camera) -> Check {
     if !camera.frame().into_iter().all(DVec3::is_finite) || !camera.position.is_finite() {
         return Err("it looks at the point it stands at, or along `up`".into());

@@ -71,7 +71,7 @@ pub enum ComposeError {
     NoFolder(PathBuf),
 }
 
-/// Where constants come from that stand in no file.
+/// The name of the source of constants that stand in no file.
 const PLAN_CONSTANTS: &str = "(constants of the plan)";
 
 /// Composes the file `root` with all that it imports.
@@ -97,7 +97,7 @@ pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader
     Ok(composer.finish())
 }
 
-/// What the names of switches begin with where code reads them as constants.
+/// The prefix of the switches' names where code reads them as constants.
 const SWITCH_PREFIX: &str = "HAS_";
 
 /// The switches that a line of code reads as constants.

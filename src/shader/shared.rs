@@ -1,4 +1,4 @@
-//! What Rust writes and WGSL reads, declared once in Rust and emitted as WGSL.
+//! Structs and constants that Rust writes and WGSL reads, declared once in Rust and emitted as WGSL.
 
 use std::fmt::Write as _;
 

@@ -85,7 +85,7 @@ macro_rules! shapes {
 }
 shape_table!(shapes);
 
-/// What the hierarchy does not hold beside triangles alone; these are the first.
+/// The contents of the hierarchy beside triangles alone; these are the first.
 const HELD_BESIDE_TRIANGLES: &[&str] = HELD.split_at(1).1;
 
 /// A switch for each lobe in the table of materials.
@@ -196,7 +196,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]).one_of(TEXEL_FORMATS),
     switch("INSTANCES").requires(&["BVH", "TRIANGLES_IN_HIERARCHY"]),
     switch("INSTANCE_CHUNKS").requires(&["INSTANCES"]),
-    // What a render makes in place of the picture.
+    // These layers are rendered in place of the picture.
     switch("LAYER_ALBEDO").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
     switch("LAYER_DEPTH").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
     switch("LAYER_DIRECT").requires(&["LAYER_OF_LIGHT"]).excludes(LAYERS),
@@ -219,7 +219,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
     // A mixture has lobes besides the diffuse one.
     switch("MORE_LOBES").requires(&["MIXTURE"]),
-    // What moves stands in the hierarchy, by its attributes.
+    // A moving shape stands in the hierarchy and has its attributes.
     switch("MOTION").requires(&["ATTRIBUTES", "BVH"]),
     switch("LIGHT_CELLS").requires(&["LIGHTS"]).excludes(&["LIGHT_TREE", "ONE_LIGHT"]),
     switch("LIGHT_TREE").requires(&["LIGHTS"]).excludes(&["ONE_LIGHT"]),
@@ -306,7 +306,7 @@ pub fn find(name: &str) -> Option<&'static Switch> {
     SWITCHES.binary_search_by(|row| row.name.cmp(name)).ok().map(|index| &SWITCHES[index])
 }
 
-/// What a set of switches breaks of the table, in words; None where a plan may make it.
+/// A rule of the table that a set of switches breaks, in words; None where a plan may make the set.
 pub fn contradiction(enabled: &BTreeSet<&'static str>) -> Option<String> {
     enabled.iter().find_map(|name| {
         let Some(row) = find(name) else { return Some(format!("there is no switch {name}")) };

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-/// Whether a place lies in a field of the first colour: floor(x) + floor(y) is even.
+/// True if a place lies in a field of the first colour: floor(x) + floor(y) is even.
 pub fn is_first(place: DVec2) -> bool {
     let field = place.floor();
     // Far out the conversion saturates; NaN becomes 0.

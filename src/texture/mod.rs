@@ -24,12 +24,12 @@ use crate::scene::{Channel, ChannelInput, ColorInput, Scene, Texture, TextureId,
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coordinates {
     pub first: DVec2,
-    /// Of textures that lie by the second ones; the first where there are none.
+    /// The second coordinates, for textures that ask for them; the first where there are none.
     pub second: DVec2,
 }
 
 impl Coordinates {
-    /// Those that a texture lies by.
+    /// The coordinates that a texture asks for.
     fn of(self, texture: &Texture) -> DVec2 {
         if texture.by_second_uvs { self.second } else { self.first }
     }

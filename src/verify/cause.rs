@@ -43,7 +43,7 @@ impl Differing {
         distance(DVec3::from(self.first.map(f64::from)), DVec3::from(self.second.map(f64::from)))
     }
 
-    /// Whether all channels agree to this share of the largest, or differ by less than underflow explains.
+    /// True if all channels agree to this share of the largest, or differ by less than underflow explains.
     pub fn agrees_to(&self, tolerance: f64) -> bool {
         let largest = self.first.iter().chain(&self.second).fold(0.0_f32, |largest, x| largest.max(x.abs()));
         self.difference() <= (tolerance * f64::from(largest)).max(UNDERFLOW)
@@ -58,7 +58,7 @@ fn distance(a: DVec3, b: DVec3) -> f64 {
     (a - b).abs().max_element()
 }
 
-/// What explains a difference.
+/// The explanation of a difference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
@@ -70,7 +70,7 @@ pub enum Cause {
     Unexplained,
 }
 
-/// What explains the difference of a path of the scene that `reference` was made from.
+/// The explanation of a differing path of the scene that `reference` was made from.
 pub fn of(differing: &Differing, reference: &ReferenceRenderer) -> Cause {
     let [x, y, sample] = differing.path;
     let mut exact = Rounding::none();
@@ -81,7 +81,7 @@ pub fn of(differing: &Differing, reference: &ReferenceRenderer) -> Cause {
         let units = UNITS[0] * (UNITS[1] / UNITS[0]).powf(f64::from(attempt % TRIES_AT_ONCE) / f64::from(TRIES_AT_ONCE - 1));
         let mut rounding = Rounding::of_units(units, seed);
         let moved = distance(reference.rounded_radiance(x, y, sample, &mut rounding), value);
-        // What is not a number has moved as far as can be.
+        // A value that is not a number has moved as far as can be.
         let far = moved.is_nan() || moved >= needed;
         far.then(|| if rounding.decisions() == exact.decisions() { Cause::Steepness } else { Cause::Decision })
     };
@@ -203,7 +203,7 @@ mod tests {
         }
     }
 
-    /// Of surfaces in one plane a device may meet any, but nothing else.
+    /// A device may meet any of the surfaces in one plane, but nothing else.
     #[test]
     fn which_of_two_surfaces_in_one_plane_is_met_is_a_decision() {
         let text = r#"

@@ -28,7 +28,7 @@ const MARGIN: f64 = 2e-5;
 /// A scene and its truth.
 struct Case {
     name: &'static str,
-    /// What the truth follows from.
+    /// The formula that gives the truth.
     formula: &'static str,
     text: &'static str,
     expected: [f64; 3],
@@ -58,7 +58,7 @@ const CASES: [Case; 5] = [
     },
 ];
 
-/// What one scene showed.
+/// The result of one scene.
 #[derive(Debug, Serialize)]
 pub struct ClosedForm {
     pub closed_form: &'static str,
@@ -92,7 +92,7 @@ pub fn count() -> usize {
 /// Renders the closed form number `index` on a device and judges it.
 ///
 /// # Errors
-/// What rendering reports.
+/// Errors of rendering.
 pub fn check(index: usize, device: &Device, options: &PlanOptions) -> Result<ClosedForm, ClosedFormError> {
     let scene = load(&CASES[index])?;
     let mut gpu = GpuRenderer::on(device, &scene, options)?;
@@ -100,10 +100,10 @@ pub fn check(index: usize, device: &Device, options: &PlanOptions) -> Result<Clo
     Ok(ClosedForm { planted: planted(&gpu, options), ..closed })
 }
 
-/// As [`check`], on the reference.
+/// Checks the reference as [`check`] checks a device.
 ///
 /// # Errors
-/// As [`check`].
+/// The errors of [`check`].
 pub fn check_reference(index: usize) -> Result<ClosedForm, ClosedFormError> {
     let scene = load(&CASES[index])?;
     judge(&CASES[index], &scene, &mut ReferenceRenderer::new(&scene)?)

@@ -1,4 +1,4 @@
-//! What is left behind when two renderings differ: both pictures, their difference, and a heat map.
+//! The evidence of two renderings that differ: both pictures, their difference, and a heat map.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::scene::Scene;
 /// Writes `SCENE-gpu.exr`, `SCENE-cpu.exr`, `SCENE-difference.exr` (gpu − cpu) and `SCENE-heat.png` into a folder.
 ///
 /// # Errors
-/// What writing reports.
+/// Errors of writing.
 pub fn write(folder: &Path, scene: &Scene, verdict: &Verdict) -> Result<Vec<PathBuf>, OutputError> {
     let difference: Vec<[f32; 3]> =
         verdict.gpu.iter().zip(&verdict.cpu).map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]).collect();

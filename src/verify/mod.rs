@@ -41,7 +41,7 @@ pub const DEFAULT_SIDE: u32 = 128;
 /// Samples per pixel unless told otherwise.
 pub const DEFAULT_SPP: u32 = 16;
 
-/// What the comparison of one scene found.
+/// The result of comparing one scene.
 #[derive(Serialize)]
 pub struct Verdict {
     /// The scene's name.
@@ -56,17 +56,17 @@ pub struct Verdict {
     pub spp: u32,
     /// Samples of all pixels.
     pub paths: u64,
-    /// Those whose radiance agrees to [`PATH_TOLERANCE`].
+    /// Paths whose radiance agrees to [`PATH_TOLERANCE`].
     pub matching_paths: u64,
-    /// Those whose radiance agrees to [`LOOSE_TOLERANCE`].
+    /// Paths whose radiance agrees to [`LOOSE_TOLERANCE`].
     pub loosely_matching_paths: u64,
     /// Share of paths that have to match; None where the scene's is not known.
     pub least_matching_share: Option<f64>,
-    /// Of the paths that do not match, those that were followed again on the reference, and what explains them.
+    /// Paths that do not match and were followed again on the reference, for an explanation.
     pub followed_paths: u64,
-    /// Of those that were followed: rounding turns a decision over ([`Cause::Decision`]).
+    /// Followed paths that rounding turns over at a decision ([`Cause::Decision`]).
     pub explained_by_a_decision: u64,
-    /// Of those that were followed: the path magnifies rounding ([`Cause::Steepness`]).
+    /// Followed paths that magnify rounding ([`Cause::Steepness`]).
     pub explained_by_steepness: u64,
     /// Differences that rounding does not explain, the largest first.
     pub unexplained_paths: Vec<UnexplainedPath>,
@@ -86,7 +86,7 @@ pub struct Verdict {
     pub rejections: Vec<String>,
     /// Which limits were missed, in words; empty where the devices agree.
     pub missed: Vec<String>,
-    /// Whether no limit was missed.
+    /// True if no limit was missed.
     pub agrees: bool,
     /// The fault that was planted on purpose.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -145,15 +145,15 @@ pub fn shrink(scene: &mut Scene, side: u32) {
 /// Renders `scene` on both devices, sample by sample, and compares.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn verify(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Verdict, RenderError> {
     verify_on(&Device::open_for(choice, options)?, scene, options, None)
 }
 
-/// As [`verify`]; None where the observer ends it.
+/// Does the work of [`verify`]; None where the observer ends it.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn verify_watched(
     scene: &Scene,
     choice: &DeviceChoice,
@@ -164,10 +164,11 @@ pub fn verify_watched(
     compare_watched(scene, &mut gpu, &mut ReferenceRenderer::new(scene)?, None, observer)
 }
 
-/// As [`verify`], on a device that is already open. `share` is what is [known](shares) of the scene's share of matching paths.
+/// Does the work of [`verify`] on a device that is already open. `share` is what is [known](shares) of the
+/// scene's share of matching paths.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn verify_on(
     device: &Device,
     scene: &Scene,
@@ -186,10 +187,10 @@ fn planted(gpu: &GpuRenderer, options: &PlanOptions) -> Option<Fault> {
     options.fault.filter(|fault| gpu.plan().switches.enabled.contains(fault.switch()))
 }
 
-/// As [`verify`], for any renderer and a reference.
+/// Does the work of [`verify`] for any renderer and a reference.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn compare(
     scene: &Scene,
     gpu: &mut dyn Renderer,
@@ -200,10 +201,10 @@ pub fn compare(
     verdict.ok_or_else(|| RenderError::Internal("the comparison ended without being asked to".to_owned()))
 }
 
-/// As [`compare`]; None where the observer ends it.
+/// Does the work of [`compare`]; None where the observer ends it.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn compare_watched(
     scene: &Scene,
     gpu: &mut dyn Renderer,
@@ -297,7 +298,7 @@ fn missed(verdict: &Verdict) -> Vec<String> {
     missed
 }
 
-/// What came of following paths.
+/// The results of following paths.
 #[derive(Default)]
 struct Followed {
     paths: u64,

@@ -23,7 +23,7 @@ pub const QUANTITY_TOLERANCE: f64 = 1e-3;
 /// Differences below this are none, however small the quantity.
 const SMALLEST: f64 = 1e-6;
 
-/// What a device says of a quantity.
+/// A device's value of a quantity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
@@ -93,7 +93,7 @@ pub struct PathComparison {
     pub rows: Vec<Row>,
     pub cpu_radiance: [f64; 3],
     pub gpu_radiance: [f64; 3],
-    /// What explains the difference, where the path's radiance does not agree to [`PATH_TOLERANCE`].
+    /// The explanation of the difference, where the path's radiance does not agree to [`PATH_TOLERANCE`].
     pub cause: Option<Cause>,
     /// There is no difference, or rounding explains it.
     pub agrees: bool,
@@ -105,7 +105,7 @@ pub struct PathComparison {
 /// Follows one path on both devices.
 ///
 /// # Errors
-/// What either renderer reports.
+/// Errors of either renderer.
 pub fn compare_path(
     device: &Device,
     scene: &Scene,
@@ -179,7 +179,7 @@ fn side_by_side(cpu: &[Quantities], gpu: &[Quantities]) -> Vec<Row> {
                 (None, None) => continue,
                 (Some(a), Some(b)) => a.difference(b) > QUANTITY_TOLERANCE,
                 // The packed scene knows no shapes; vertices past the last that the kernel writes down are not its fault.
-                // Where a path ends, only one may ask for the normal.
+                // At the end of a path, only one of them may ask for the normal.
                 _ => !["shape", "shading normal"].contains(&quantity) && index < TRACED_VERTICES as usize,
             };
             rows.push(Row { vertex: index + 1, quantity, cpu: cpu_value, gpu: gpu_value, parts });

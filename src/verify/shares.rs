@@ -1,7 +1,8 @@
-//! What share of the paths of each built-in scene matches.
+//! The share of matching paths of each built-in scene.
 //!
-//! It is a property of the scene: how many of its paths run along edges, and how steep they are. It depends little on the picture's size,
-//! on the samples, and on the device, as long as that rounds as IEEE 754 has it.
+//! The share is a property of the scene: how many of its paths run along edges, and how steep they are. It
+//! depends little on the picture's size, on the samples, and on the device, as long as that rounds by IEEE
+//! 754.
 
 /// A share that was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +62,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("furnace-mirror", MeasuredShare { matching: 65_536, paths: 65_536 }),
 ];
 
-/// Of a built-in scene.
+/// The share of a built-in scene.
 pub fn of_builtin(name: &str) -> Option<MeasuredShare> {
     MEASURED.iter().find(|(scene, _)| *scene == name).map(|(_, share)| *share)
 }

@@ -55,7 +55,7 @@ fn a_render_that_is_asked_to_stop_goes_on() {
     }
 }
 
-/// What the state is not of is said by name, and the state stays.
+/// The refusal names the settings in which the state differs, and the state stays.
 #[cfg(unix)]
 #[test]
 fn a_state_of_another_render_is_refused_by_name() {

@@ -6,7 +6,7 @@ use gpt::output::Channels;
 use super::common::effort::announce;
 use super::*;
 
-/// Whether the library is there; else a line says what is left out.
+/// True if the library is installed; else a line says what is left out.
 fn is_installed() -> bool {
     match Library::open() {
         Ok(_) => true,

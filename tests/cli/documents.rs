@@ -1,4 +1,4 @@
-//! The documents name files, links, commands and flags that exist, and the README stays short.
+//! The documents name files, links, commands and flags that exist.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -7,11 +7,9 @@ use std::process::Command;
 
 use super::text;
 
-/// Lines of the README at most.
-const README_LINES: usize = 120;
 /// Folders whose files documents name by path.
 const FOLDERS: [&str; 9] = ["src/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
-/// What was, not what is: only their links are checked.
+/// Documents about the past: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
 /// Flags of cargo and of openjd that documents use.
 const FLAGS_OF_OTHERS: [&str; 10] = [
@@ -47,7 +45,7 @@ impl Help {
         Self(flags)
     }
 
-    /// What is wrong with a command line that begins after `gpt`.
+    /// The mistakes of a command line that begins after `gpt`.
     fn check(&self, words: &[&str]) -> Vec<String> {
         let mut command = String::new();
         for word in words {
@@ -83,7 +81,6 @@ struct Document {
     folder: PathBuf,
     prose: String,
     commands: Vec<String>,
-    text: String,
 }
 
 impl Document {
@@ -100,7 +97,7 @@ impl Document {
             }
         }
         let name = path.strip_prefix(root).expect("within the root").to_string_lossy().into_owned();
-        Self { name, folder: path.parent().expect("a folder").to_owned(), prose, commands, text }
+        Self { name, folder: path.parent().expect("a folder").to_owned(), prose, commands }
     }
 
     fn code(&self) -> impl Iterator<Item = &str> {
@@ -111,7 +108,7 @@ impl Document {
         self.prose.split("](").skip(1).filter_map(|rest| rest.split(')').next()).filter(|link| !link.contains("://"))
     }
 
-    /// What links end in, as GitHub makes it of the headings.
+    /// The anchors that GitHub makes of the headings.
     fn anchors(&self) -> BTreeSet<String> {
         let headings = self.prose.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim());
         let kept = |c: char| c.is_alphanumeric() || c == '-' || c == ' ' || c == '_';
@@ -138,7 +135,7 @@ fn documents(root: &Path) -> Vec<Document> {
     found
 }
 
-/// What stands in the folders beside the documents.
+/// The files in the folders beside the documents.
 #[derive(Default)]
 struct Sources {
     /// Every file's name.
@@ -185,10 +182,6 @@ fn faults(root: &Path, help: &Help) -> Vec<String> {
     let mut faults: Vec<String> = lost.map(|(cited, by)| format!("{} cites {cited}, which is not there", by.display())).collect();
     for document in &documents {
         let mut fault = |what: String| faults.push(format!("{}: {what}", document.name));
-        let lines = document.text.lines().count();
-        if document.name == "README.md" && lines > README_LINES {
-            fault(format!("{lines} lines, more than {README_LINES}"));
-        }
         if document.prose.matches('`').count() % 2 == 1 {
             fault("a ` without its partner".into());
         }
@@ -236,7 +229,7 @@ fn names_end_with(root: &Path, names: &BTreeSet<String>, code: &str) -> bool {
     names.contains(name) && (name == code || FOLDERS.iter().any(|folder| root.join(folder).join(code).exists()))
 }
 
-/// What is wrong with a line that may be a command.
+/// The mistakes of a line that may be a command.
 fn check_command(line: &str, root: &Path, help: &Help, script_flags: &BTreeSet<String>) -> Vec<String> {
     let words: Vec<&str> = line.split_whitespace().skip_while(|word| word.contains('=') && !word.starts_with('-')).collect();
     let missing = |folder: &str, name: &str| {
@@ -292,7 +285,7 @@ fn a_document_with_faults_is_noticed() {
         fs::create_dir_all(folder.path().join(name)).expect("a folder");
     }
     write("src/cites.rs", "// docs/page.md says why (docs/lost.md).\n");
-    write("README.md", &"line\n".repeat(README_LINES + 1));
+    write("README.md", "A line.\n");
     write("docs/notes/old.md", "`src/gone.rs` and `gpt gone` are history; [this](gone.md) is not.\n");
     write(
         "docs/page.md",
@@ -303,7 +296,6 @@ fn a_document_with_faults_is_noticed() {
     let lost = format!("{} cites docs/lost.md, which is not there", folder.path().join("src/cites.rs").display());
     let expected = [
         &lost,
-        "README.md: 121 lines, more than 120",
         "docs/notes/old.md: the link to gone.md leads nowhere",
         "docs/page.md: the link to gone.png leads nowhere",
         "docs/page.md: no heading for the link to #nothing",

@@ -8,7 +8,7 @@ fn farm() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("farm")
 }
 
-/// Whether all of these programs are installed; a line says what is missing.
+/// True if all of these programs are installed; a line says what is missing.
 fn are_installed(programs: &[&str], what: &str) -> bool {
     let is_missing =
         |program: &&&str| Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err();

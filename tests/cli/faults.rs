@@ -113,7 +113,7 @@ fn failing_drivers_are_errors_with_the_contracts_exit_codes() {
     }
 }
 
-/// Where the device has no memory for the whole film, it is rendered in bands, which are the same picture.
+/// A device without memory for the whole film renders it in bands, which are the same picture.
 #[test]
 fn memory_forces_bands() {
     let Some(layer) = layer() else { return };
@@ -135,7 +135,8 @@ fn memory_forces_bands() {
     assert!(place.image("whole.exr") == place.image("bands.exr"));
 }
 
-/// What was rendered before is saved, beside a finished picture, and said so; however the render was to end.
+/// The samples so far are saved beside a finished picture, and the message says so, however the render was to
+/// end.
 #[test]
 fn a_lost_device_leaves_the_picture_so_far() {
     let Some(layer) = layer() else { return };

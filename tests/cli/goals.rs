@@ -14,7 +14,7 @@ fn a_time_limit_saves_a_whole_picture_and_says_how_many_samples_it_has() {
     assert_eq!(stats["samples"], samples * 24 * 16);
     assert_eq!(header_number(&place.path("a.exr"), "gpt:samples"), samples as i32);
     assert_eq!(header_number(&place.path("a.exr"), "gpt:complete"), 0);
-    // It is the picture of as many samples.
+    // The picture equals that of as many samples.
     place.expect(0, &format!("render scene.toml --device cpu --spp {samples} -o b.exr"));
     place.expect(0, "compare a.exr b.exr --tolerance 1e-5");
 }

@@ -89,7 +89,8 @@ fn wrong_files_and_arguments_are_refused() {
     place.expect(3, "check /dev/zero.xml");
 }
 
-/// What is exported and imported again is the same scene, but for rounding of the places of its surfaces.
+/// An exported scene that is imported again is the same scene, but for rounding of the places of its
+/// surfaces.
 #[test]
 fn what_is_exported_comes_back() {
     let place = place();
@@ -113,7 +114,7 @@ fn what_is_exported_comes_back() {
     place.expect(3, "export gallery --strict -o d.xml");
     place.expect(2, "export cornell -o d.toml");
     assert!(!place.path("d.xml").exists());
-    // What was imported as well.
+    // An imported scene comes back as well.
     place.expect(0, "export a.xml -o e.xml");
     place.expect(0, "check e.xml");
 }

@@ -12,7 +12,7 @@ impl Workplace {
         fs::write(self.path(name), content).expect("a file in a folder of its own");
     }
 
-    /// As [`Workplace::expect`], within a time that no pipe or device would let it end in.
+    /// Does the work of [`Workplace::expect`], within a time that no pipe or device would let it end in.
     fn expect_soon(&self, code: i32, arguments: &str) -> String {
         let mut child =
             self.command(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");

@@ -1,4 +1,4 @@
-//! What an installation has beside the program.
+//! The files of an installation beside the program.
 
 use super::*;
 

@@ -366,7 +366,7 @@ fn check_says_what_is_in_the_scene() {
     assert!(
         summary["valid"] == true && summary["device_bytes"].as_u64() > Some(0) && summary["cpu_seconds"].as_f64() > Some(0.0)
     );
-    // What kernels are made of is for those who ask.
+    // The parts of kernels are shown to those who ask.
     assert!(report.starts_with("valid\n") && !report.contains("compiled in") && summary["plan"].is_null(), "{report}");
     assert!(text(&place.run("check scene.toml --plan").stdout).contains("compiled in"));
     // Lights chosen as a trial run finds best, and so many light samples, of pictures that are worth one.

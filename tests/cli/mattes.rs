@@ -42,7 +42,7 @@ fn manifest(file: &Channels, layer: &str) -> Vec<(String, f32)> {
     names.as_object().expect("names").iter().map(|(name, hex)| (name.clone(), id(hex))).collect()
 }
 
-/// What covers a pixel, by name, the largest share first.
+/// The names that cover a pixel, the largest share first.
 fn cover(file: &Channels, layer: &str, x: usize, y: usize) -> Vec<(String, f32)> {
     let names = manifest(file, layer);
     let at = |channel: &str| file.channel(&format!("{layer}{channel}")).expect("the channel")[y * 16 + x];

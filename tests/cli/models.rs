@@ -18,7 +18,7 @@ fn pixels(place: &Workplace, arguments: &str, name: &str) -> Vec<[f32; 3]> {
     place.image(name).pixels
 }
 
-/// What is saved renders the same picture, bit for bit, with whatever dials.
+/// A saved scene renders the same picture, bit for bit, with whatever dials.
 #[test]
 fn a_saved_scene_renders_the_same_picture() {
     let place = place();

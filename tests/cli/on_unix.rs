@@ -119,7 +119,7 @@ fn signals_are_obeyed_and_nothing_is_left() {
             fs::remove_file(place.path(name)).expect("it is there");
         }
     }
-    // As `nohup` starts it.
+    // Started by `nohup`.
     let mut command = Command::new("bash");
     let render = "render scene.toml --device cpu --spp 100000000 -o a.exr -o a.png";
     command.args(["-c", &format!("trap '' HUP; exec {} {render}", env!("CARGO_BIN_EXE_gpt"))]).current_dir(place.0.path());

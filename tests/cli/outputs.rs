@@ -1,4 +1,4 @@
-//! Where pictures and statistics go.
+//! The places of pictures and statistics.
 
 use super::*;
 
@@ -83,7 +83,7 @@ fn equal_renders_are_equal_files() {
     assert!(fs::read(place.path("a.exr")).expect("one") == fs::read(place.path("b.exr")).expect("the other"));
 }
 
-/// What a process left that was killed goes with the next render into the same folder.
+/// The next render into the same folder removes the files that a killed process left.
 #[test]
 fn what_a_killed_render_left_is_removed() {
     let place = Workplace::new();

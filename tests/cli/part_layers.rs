@@ -13,7 +13,7 @@ fn channels(place: &Workplace, name: &str) -> Channels {
     Channels::read(&place.path(name)).expect("an EXR file")
 }
 
-/// Whether numbers are equal but for a unit in the last place; where terms cancel, but for what they lost.
+/// True if numbers are equal but for a unit in the last place; where terms cancel, but for their rounding.
 fn agree(a: f32, b: f32) -> bool {
     a.to_bits().abs_diff(b.to_bits()) <= 1 || (a - b).abs() < 1e-9
 }
@@ -94,7 +94,8 @@ fn layers_of_parts_are_joined_to_those_of_one_render() {
         }
         assert!(!found.iter().any(|name| name == "ObjectId"));
     }
-    // What is missing is named with layers as without, and where that is allowed, means are over the samples that are there.
+    // Missing samples are named with layers as without, and where they are allowed to be missing, means are
+    // over the samples that are there.
     let said = place.expect(3, "merge a.exr c.exr --spp 13 -o x.exr");
     assert!(said.contains("samples 3 to 11 are missing"), "{said}");
     place.expect(0, "merge a.exr c.exr --spp 13 --partial -o x.exr");

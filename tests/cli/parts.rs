@@ -82,7 +82,7 @@ fn a_region_is_the_same_pixels_of_the_whole_picture() {
             let crop = region.map(|side| side.to_string()).join(",");
             place.expect(0, &format!("{render} --crop {crop} -o {name}.exr"));
             let part = place.image(&format!("{name}.exr"));
-            // It lies in the whole picture, where it belongs.
+            // The part lies where it belongs in the whole picture.
             assert_eq!((part.width, part.height), (whole.width, whole.height));
             for row in 0..rows {
                 let start = ((y + row) * 24 + x) as usize;

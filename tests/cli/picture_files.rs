@@ -31,7 +31,7 @@ fn a_region_lies_where_it_belongs_in_the_whole_picture() {
         assert_eq!(*of_part, if is_inside { *of_whole } else { [0.0; 3] }, "column {column}, row {row}");
     }
     assert!(part.pixels.iter().any(|pixel| *pixel != [0.0; 3]));
-    // It is what `gpt compare` compares, and a finished picture is not rendered again.
+    // `gpt compare` takes this picture, and a finished picture is not rendered again.
     place.expect(7, "compare part.exr whole.exr");
     place.expect(0, "compare part.exr part.exr");
     let before = fs::metadata(place.path("part.exr")).expect("the file").modified().expect("its time");

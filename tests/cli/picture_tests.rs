@@ -113,7 +113,7 @@ fn pictures_of_other_programs_are_candidates() {
     fs::create_dir(place.path("theirs")).expect("a folder");
     let candidates = format!("{TEST} lit --candidate-dir theirs");
     assert_eq!(place.run(&candidates).status.code(), Some(3), "there is no picture yet");
-    // As another program would: other samples, no variances.
+    // Another program has other samples and no variances.
     place.expect(0, "render scenes/lit.toml --spp 64 --seed 9 --device cpu --sampler halton -q -o theirs/lit.exr");
     let (code, green) = report(&place, &candidates);
     assert_eq!(code, Some(0), "{green}");

@@ -14,7 +14,7 @@ fn the_way_is_said_and_what_cannot_be_is_refused() {
         assert_eq!(output.status.code(), Some(0), "gpt {arguments}");
         assert!(text(&output.stdout).contains(words), "gpt {arguments}: `{words}` is not in\n{}", text(&output.stdout));
     }
-    // What moves has no place in an acceleration structure, and not every device has one.
+    // A moving shape has no place in an acceleration structure, and not every device has one.
     for command in ["check", "render", "verify"] {
         let stderr = place.expect(4, &format!("{command} motion-blur --traversal ray-query"));
         assert!(stderr.contains("--traversal ray-query") || stderr.contains("adapter"), "gpt {command}: {stderr}");

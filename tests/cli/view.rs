@@ -19,7 +19,7 @@ struct Viewed {
     secret: String,
 }
 
-/// What was answered.
+/// An answer of the server.
 struct Answer {
     status: u32,
     head: String,
@@ -290,7 +290,7 @@ fn watching_needs_a_page_and_a_file() {
     }
 }
 
-/// What tev would show: name, width, height and channels by name.
+/// A picture as tev would show it: name, width, height and channels by name.
 #[derive(Default)]
 struct Received {
     name: String,
@@ -370,7 +370,7 @@ fn tev_receives_the_picture() {
     assert_eq!(place.files(), ["a.exr", "scene.toml"]);
 }
 
-/// It is asked to end while the viewer stands still, and ends as soon as any render.
+/// The program is asked to end while the viewer stands still, and ends as soon as any render.
 #[test]
 fn a_tev_that_takes_nothing_does_not_hold_the_end() {
     let place = Workplace::new();

@@ -34,7 +34,7 @@ impl Deref for OfThisThread {
     }
 }
 
-/// The same device as if it had lower limits: what it lacks, plans do without.
+/// The device with lower limits: plans do without what it lacks.
 pub fn with_limits(lower: impl FnOnce(&mut gpt::plan::DeviceLimits)) -> Option<Device> {
     let mut device = DEVICE.as_ref()?.clone();
     lower(&mut device.limits);

@@ -2,11 +2,12 @@
 
 use std::io::Write as _;
 
-/// Whether `GPT_TEST=all` asks for the long form of a test (`scripts/test --all`). Where it does not, a line names what is left out.
+/// True where `GPT_TEST=all` asks for the long form of a test that has a short one too (`scripts/test --full`). Otherwise a line names the
+/// difference. Tests that are long as a whole are `#[ignore]`d.
 pub fn in_full(left_out: &str) -> bool {
     let full = std::env::var("GPT_TEST").as_deref() == Ok("all");
     if !full {
-        announce(&format!("left out without --all: {left_out}"));
+        announce(&format!("left out without --full: {left_out}"));
     }
     full
 }

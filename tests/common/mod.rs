@@ -1,4 +1,4 @@
-//! What test programs share.
+//! Helpers that test programs share.
 #![allow(dead_code, reason = "each program uses some of it")]
 
 pub mod device;

@@ -8,7 +8,7 @@ pub fn render(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
     render_and_count(renderer, scene).0
 }
 
-/// The same, and what the render counted.
+/// The picture, and the counts of the render.
 pub fn render_and_count(renderer: &mut dyn Renderer, scene: &Scene) -> (Vec<[f32; 3]>, RenderReport) {
     let mut pixels = Vec::new();
     let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };

@@ -7,7 +7,7 @@ use gpt::gpu::Device;
 use gpt::plan::{PlanOptions, TraversalChoice};
 use gpt::renderer::{DeviceChoice, RenderError};
 
-/// As `--traversal ray-query` has it.
+/// The plan of `--traversal ray-query`.
 pub fn by_ray_queries() -> PlanOptions {
     PlanOptions { traversal: TraversalChoice::RayQuery, ..PlanOptions::default() }
 }

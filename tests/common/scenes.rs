@@ -1,10 +1,11 @@
 //! Built-in scenes.
 
-/// What the short form of `tests/gpu/agreement` compares. A test holds that among them they use every switch of the shaders that any built-in scene
-/// uses on a software device, but for those below.
+/// The scenes of the short form of `tests/gpu/agreement`. A test holds that among them they use every switch
+/// of the shaders that any built-in scene uses on a software device, but for those below.
 pub const ENOUGH: [&str; 4] = ["examples", "terrace", "bazaar", "arbour"];
 
-/// What other tests of agreement have scenes of: in `tests/gpu/agreement`, and `GUIDE` in `tests/gpu/guiding.rs`.
+/// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
+/// `tests/gpu/guiding.rs`.
 pub const ELSEWHERE: [&str; 33] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",

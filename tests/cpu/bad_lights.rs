@@ -139,7 +139,7 @@ fn maps_that_are_no_light_are_one_error_at_the_file() {
     }
     exr_with(path, "good.exr", 0.5);
     assert!(load_in(path, &environment("good.exr")).is_ok());
-    // What scaling makes of it must be a number too.
+    // The scaled radiance must be a number too.
     let scaled = format!("{}scale = 1e18\n", environment("bright.exr"));
     exr_with(path, "bright.exr", 1e30);
     let complaint = complaint_in(path, &scaled);

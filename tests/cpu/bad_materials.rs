@@ -282,7 +282,8 @@ fn masks_with_alpha_and_normal_maps_inside_blends_say_what_to_do() {
     assert!(error.to_string().contains("`bumpy` has a normal map and is part of a blend"), "{error}");
 }
 
-/// What has a meaning is taken: x⁰ is 1 everywhere; a threshold's tau may be any number; a threshold of a threshold is one.
+/// Values with a meaning are accepted: x⁰ is 1 everywhere; a threshold's tau may be any number; a threshold
+/// of a threshold is one.
 #[test]
 fn limits_with_a_meaning_are_accepted() {
     for weight in [

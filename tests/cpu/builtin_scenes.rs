@@ -1,7 +1,6 @@
 //! The built-in scenes use everything that kernels have code for, so that `gpt verify` without a scene sees all of it. No device is needed.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
@@ -43,7 +42,7 @@ const OF_DEVICES: [&str; 26] = [
     "UNIFORM_TABLES",
 ];
 
-/// What scenes compile in on a device.
+/// The switches that scenes compile in on a device.
 fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -> BTreeSet<&'static str> {
     let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
     let of_scene = |scene: &Scene| {
@@ -101,7 +100,8 @@ fn built_in_scenes_use_every_switch() {
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");
 }
 
-/// Those that `tests/gpu/agreement` compares in its short form miss nothing that the others have, on the devices that it runs on.
+/// The scenes that `tests/gpu/agreement` compares in its short form miss no switch of the others, on the
+/// devices that it runs on.
 #[test]
 fn a_few_built_in_scenes_use_every_switch_that_any_uses() {
     let software = DeviceLimits {
@@ -149,23 +149,4 @@ fn pictures_that_built_in_scenes_need_are_small() {
         .map(|file| file.and_then(|file| file.metadata()).expect("a file").len())
         .sum();
     assert!(bytes < 20_000, "{bytes} bytes of textures are part of the program");
-}
-
-/// What `scripts/mutants` plants: each old text stands once in the shaders, and each scene is built in. The script itself runs long.
-#[test]
-fn every_fault_that_the_mutants_script_plants_has_its_place() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let list = std::fs::read_to_string(root.join("scripts/mutants.toml")).expect("the list of faults");
-    let list: toml::Table = list.parse().expect("it is TOML");
-    let faults = list["mutant"].as_array().expect("a list");
-    let shaders: String = gpt::shader::sources::files().map(|(_, text)| text).collect();
-    assert!(faults.len() >= 40, "{} faults", faults.len());
-    for fault in faults {
-        let [name, old, new] = ["name", "old", "new"].map(|key| fault[key].as_str().expect("a text"));
-        assert_eq!(shaders.matches(old).count(), 1, "{name}: {old}");
-        assert_ne!(old, new, "{name}");
-        for scene in fault["scenes"].as_array().expect("a list") {
-            assert!(load::builtin_names().any(|built_in| Some(built_in) == scene.as_str()), "{name}: {scene}");
-        }
-    }
 }

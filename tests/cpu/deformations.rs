@@ -45,7 +45,7 @@ fn targets_and_joints_bend_a_mesh() {
     assert_eq!(scene.animation.frames(), Some([0.0, 10.0]));
 }
 
-/// What moves the shape moves the bent mesh.
+/// A motion of the shape moves the deformed mesh.
 #[test]
 fn joints_are_about_where_the_shape_stands() {
     let place = "transform = { rotate = [0, 0, 1], degrees = 90 }";

@@ -65,7 +65,7 @@ fn packed(scene: &Scene) -> PackedScene {
     PackedScene::new(scene).expect("the scene packs")
 }
 
-/// Where primitives stick out of a box on the way to them, and how often each is met there.
+/// The primitives that stick out of a box on the way to them, and how often each is met.
 fn walk(nodes: &[Node], packed: &PackedScene, seen: &mut [u32]) -> Vec<String> {
     let mut complaints = Vec::new();
     // Every node with what all boxes on the way to it have in common.
@@ -87,7 +87,7 @@ fn walk(nodes: &[Node], packed: &PackedScene, seen: &mut [u32]) -> Vec<String> {
                 let primitive = &packed.primitives[index as usize];
                 let corners = [primitive.p0, primitive.p1, primitive.p2].map(Vec3::from);
                 let inside = corners.iter().all(|&corner| common.contains(&Box3 { low: corner, high: corner }));
-                // What moves, and shapes without corners, are for pictures to judge.
+                // Moving shapes, and shapes without corners, are for pictures to judge.
                 if primitive.kind() == PrimitiveKind::Triangle as u32 && !primitive.moves() && !inside {
                     complaints.push(format!("primitive {index}, {corners:?}, sticks out of {common:?}"));
                 }

@@ -265,7 +265,7 @@ group = "land"
 transform = [{ translate = [0, 4, 0] }]
 "#;
 
-/// As [`GOOD`], with a wood in place of the trees.
+/// The scene [`GOOD`] with a wood in place of the trees.
 fn wood(change: impl Fn(&str) -> String) -> String {
     let trees = GOOD.find("[[instance]]").expect("it has some");
     let end = GOOD.find("[[light]]").expect("it has one");
@@ -353,7 +353,7 @@ fn a_billion_instances_in_thirty_lines_are_refused() {
     assert!(read(&doublings(30).replace("group = \"g30\"", "group = \"g3\"")).is_ok());
 }
 
-/// What is written again is the same scene.
+/// A scene that is read and written again is the same scene.
 #[test]
 fn written_scenes_have_the_same_instances() {
     let moving = wood(|wood| format!("{wood}motion = [{{ rotate = [0, 1, 0], degrees = 20 }}]\n"));

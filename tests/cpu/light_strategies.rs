@@ -244,8 +244,9 @@ fn cells_of_lights_are_taken_where_lists_hold_the_light() {
     }
 }
 
-/// Of few lights, where what power prefers does not reach what is lit by the others: a weak lamp beside a strong one behind a wall. Not
-/// where all of them light what is seen, nor where there are several triangles of one lamp.
+/// The choice among few lights falls on cells if the light that power prefers does not reach what the others
+/// light: a weak lamp beside a strong one behind a wall. It does not if all of them light what is seen, nor
+/// if there are several triangles of one lamp.
 #[test]
 fn cells_of_few_lights_are_taken_where_a_trial_run_finds_them_better() {
     let settled = |parts: &[&str]| {
@@ -393,13 +394,13 @@ fn on_quad(u: f64, v: f64) -> [f64; 3] {
     [4.0 * u - 2.0, 1.9, 4.0 * v - 2.0]
 }
 
-/// Of [`TUBE`], level and higher; u grows from −z, counter-clockwise seen from −x.
+/// A point of [`TUBE`], level and higher; u grows from −z, counter-clockwise seen from −x.
 fn on_tube(u: f64, v: f64) -> [f64; 3] {
     let (sine, cosine) = (std::f64::consts::TAU * u).sin_cos();
     [4.0 * v - 2.0, 3.0 - 0.6 * sine, -0.6 * cosine]
 }
 
-/// Of [`GLOBE`], higher and not turned.
+/// A point of [`GLOBE`], higher and not turned.
 fn on_globe(u: f64, v: f64) -> [f64; 3] {
     let ((sine, cosine), (across, height)) = ((std::f64::consts::TAU * u).sin_cos(), (std::f64::consts::PI * v).sin_cos());
     [0.4 + 0.8 * across * sine, 3.2 - 0.8 * height, 0.3 - 0.8 * across * cosine]

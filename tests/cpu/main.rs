@@ -1,4 +1,5 @@
-//! What needs no graphics device: files and their errors, packing, plans, shader texts, samplers, and pictures by the reference.
+//! Tests that need no graphics device: files and their errors, packing, plans, shader texts, samplers, and
+//! pictures by the reference.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -18,12 +19,12 @@ mod imports;
 mod instances;
 mod learn;
 mod light_strategies;
+mod many_parts;
 mod models;
 mod picture_files;
 mod picture_test;
 mod plan;
 mod samplers;
-mod scaling;
 mod scene_files;
 mod schema_agreement;
 mod shader_imports;

@@ -94,7 +94,7 @@ fn hardware_with_bindings_to_spare_reads_small_arrays_from_storage() {
     }
 }
 
-/// Where a device has no memory for it, fewer paths are in flight, and large films go band by band.
+/// A device with less memory has fewer paths in flight, and large films go band by band.
 #[test]
 fn less_memory_means_fewer_paths_and_a_smaller_film() {
     let limits = DeviceLimits::default();
@@ -158,7 +158,7 @@ fn the_film_goes_into_buffers_where_textures_cannot_be_read_and_written() {
     assert_eq!(plan(&scene, &DeviceLimits::default()).expect("it fits").film, FilmStorage::Buffer);
     let narrow = DeviceLimits { max_texture_side: 256, ..with.clone() };
     assert_eq!(plan(&scene, &narrow).expect("it fits").film, FilmStorage::Buffer);
-    // What is asked for is taken or refused.
+    // A storage that is asked for is taken or refused.
     let asked = |film, limits: &DeviceLimits| {
         Plan::new(&scene, &packed(&scene), limits, &PlanOptions { film: Some(film), ..PlanOptions::default() })
     };
@@ -230,7 +230,8 @@ fn a_scene_packed_for_another_traversal_is_refused() {
     }
 }
 
-/// Where verification passed, and nowhere else, ray queries are what `auto` means; and only for scenes that they can see.
+/// Ray queries are what `auto` means where verification passed, and nowhere else; and only for scenes that
+/// they can see.
 #[test]
 fn verified_ray_queries_are_used_unasked() {
     let verified = DeviceLimits {
@@ -321,7 +322,8 @@ fn the_number_of_cores_does_not_show() {
     }
 }
 
-/// What no surface is made of costs nothing: not a word of the kernels, of the tables or of the texels.
+/// Materials and textures without a surface cost nothing: not a word of the kernels, of the tables or of the
+/// texels.
 #[test]
 fn materials_and_textures_that_nothing_uses_leave_no_trace() {
     let room = include_str!("../../scenes/cornell.toml");
@@ -361,7 +363,7 @@ fn materials_and_textures_that_nothing_uses_leave_no_trace() {
         let scene = load::load_toml_str(&text, "room", Path::new(".")).expect("the scene is valid");
         let packed = PackedScene::new(&scene).expect("the scene packs");
         let plan = Plan::new(&scene, &packed, &DeviceLimits::default(), &PlanOptions::default()).expect("it fits");
-        // As bits: "no index" is a NaN.
+        // Words are compared as bits: "no index" is a NaN.
         let tables: Vec<_> = packed.tables().words.iter().map(|word| word.map(f32::to_bits)).collect();
         (tables, packed.materials.scene_ids, plan)
     };
@@ -409,7 +411,7 @@ fn several_light_samples_take_room_for_their_shadow_rays() {
     }
 }
 
-/// What is asked of the stages is what runs, or is refused.
+/// The stages that are asked for are those that run, or are refused.
 #[test]
 fn stages_are_what_was_asked_for() {
     let mut scene = grid(20);

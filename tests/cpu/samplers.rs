@@ -63,7 +63,8 @@ fn sobol_fills_elementary_intervals() {
     }
 }
 
-/// The same for Halton's pixel dimensions: runs of 2ᵏ 3ᵐ points, in the sequence that all pixels share.
+/// Halton's pixel dimensions fill elementary intervals too: runs of 2ᵏ 3ᵐ points, in the sequence that all
+/// pixels share.
 #[test]
 fn halton_fills_elementary_intervals() {
     let point = |index| [0, 1].map(|d| (f64::from(radical_inverse_bits(5, d, index)) + 0.5) / 4_294_967_296.0);
@@ -77,7 +78,7 @@ fn halton_fills_elementary_intervals() {
     assert_eq!(BASES[..2], [2, 3]);
 }
 
-/// What the tests above ask is too much of random points.
+/// Random points fail the tests above.
 #[test]
 fn random_points_do_not_fill_elementary_intervals() {
     let independent = sampling(SamplerKind::Independent, 1, 77);
@@ -176,12 +177,13 @@ fn independence(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
 
 const WIDTH: u32 = 512;
 
-/// What a sampler gives a pixel for one dimension at one sample.
+/// The number that a sampler gives a pixel for one dimension at one sample.
 fn number(settings: &Sampling, point: &SequencePoint, pixel: u32, dimension: u32) -> f64 {
     PathSampler::new(settings, pixel, point).uniform(Dimension(dimension))
 }
 
-/// The same sample of neighbouring pixels, to the right and below, and two dimensions of the same pixel, over many pixels.
+/// The test compares one sample of neighbouring pixels, to the right and below, and two dimensions of one
+/// pixel, over many pixels.
 #[test]
 fn neighbouring_pixels_and_dimensions_are_independent() {
     let pixels = 0..40_000_u32;
@@ -205,7 +207,8 @@ fn neighbouring_pixels_and_dimensions_are_independent() {
     assert!(rejected.is_empty(), "{rejected:?}");
 }
 
-/// The same test on pixels whose keys are neighbours themselves, and on a sequence that nothing decorrelates.
+/// The test fails on pixels whose keys are neighbours themselves, and on a sequence that nothing
+/// decorrelates.
 #[test]
 fn correlations_are_noticed() {
     let settings = sampling(SamplerKind::Halton, 64, 1);

@@ -322,12 +322,13 @@ fn mutated() -> impl Strategy<Value = String> {
     })
 }
 
-/// Where the models are that some built-in scenes name.
+/// The folder of the models that some built-in scenes name.
 fn scenes_folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
 }
 
-/// What the test below damages loads as it is: otherwise every damaged scene would be refused for another reason.
+/// The scenes that the test below damages load undamaged: otherwise every damaged scene would be refused for
+/// another reason.
 #[test]
 fn scenes_that_are_not_mutated_load() {
     for name in load::builtin_names() {

@@ -358,7 +358,7 @@ fn all_keys(schema: &Value, keys: &mut Vec<String>) {
     }
 }
 
-/// What the schema and the program say of a file, where they do not agree.
+/// The answers of the schema and of the program to a file, where they do not agree.
 fn disagreement(validator: &Validator, text: &str) -> Option<String> {
     let file: Value = toml::from_str(text).expect("it was written as TOML");
     let by_schema = validator.validate(&file).map_err(|error| format!("{error} at {}", error.instance_path()));

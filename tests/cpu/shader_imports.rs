@@ -1,4 +1,5 @@
-//! What each WGSL file uses it imports, and no import leads back to where it began. No device is needed.
+//! Each WGSL file imports the names that it uses, and no import leads back to where it began. No device is
+//! needed.
 //!
 //! Composed shaders have one name space, so a file could use what another one happens to bring along; it would then break where that one
 //! changes. A file sees the names of those it imports, and of those that these pass on (`#export`). Conditions (`#if`) are ignored: what is
@@ -17,7 +18,7 @@ struct Names {
     /// Neither local to a function nor a member.
     used: BTreeSet<String>,
     imports: BTreeSet<String>,
-    /// Those among them that are passed on.
+    /// Imported names that are passed on.
     exports: BTreeSet<String>,
 }
 
@@ -136,7 +137,7 @@ fn visible<'a>(files: &'a Files, file: &str) -> BTreeSet<&'a str> {
     seen
 }
 
-/// What is wrong, in words.
+/// The mistakes, in words.
 fn mistakes(files: &Files) -> Vec<String> {
     let mut found = Vec::new();
     for (file, names) in files {
@@ -213,7 +214,7 @@ fn mistakes_in_imports_are_found() {
     };
     let thing = ("thing", "struct Thing {\n    size: f32,\n}\nconst KIND: u32 = 1u;\nvar<private> here: Thing;\n");
     let none: [&str; 0] = [];
-    // What is a local, a member, a comment or an attribute uses nothing.
+    // Locals, members, comments and attributes use nothing.
     assert_eq!(
         found(&[thing, ("a", "fn f(here: f32) -> f32 {\n    let KIND = a.Thing; // Thing\n    return KIND + here;\n}\n")]),
         none

@@ -84,8 +84,8 @@ fn every_pair_of_switches_composes_to_valid_shaders() {
     }
 }
 
-/// Those switches whose index has a certain bit set, those that have it clear, for every bit, all and none: indices differ in a bit, so
-/// every two switches are apart both ways.
+/// The sets of switches whose index has a certain bit set, and of those that have it clear, for every bit,
+/// all and none: indices differ in a bit, so every two switches are apart both ways.
 fn by_bits() -> BTreeSet<BTreeSet<&'static str>> {
     let bits = usize::BITS - SWITCHES.len().leading_zeros();
     let of_bit = |bit: u32, is_set: bool| {

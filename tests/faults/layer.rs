@@ -27,7 +27,7 @@ use std::time::{Duration, Instant};
 
 use ash::vk;
 
-/// What the loader chains in front of the creation of an instance or a device.
+/// An entry in the loader's chain in front of the creation of an instance or a device.
 #[repr(C)]
 struct LayerCreateInfo {
     s_type: vk::StructureType,
@@ -41,7 +41,7 @@ struct LayerCreateInfo {
 struct LayerLink {
     next: *mut LayerLink,
     get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
-    /// Of a device's chain; the instance's has something else here.
+    /// The function of a device's chain; the instance's has something else here.
     get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
 }
 
@@ -98,7 +98,7 @@ fn fault() -> Option<&'static Fault> {
     FAULT.get_or_init(read).as_ref()
 }
 
-/// What a call of this function does instead of what it should; None: what it should.
+/// The result that a call of this function gives instead of doing its work; None: it does its work.
 fn instead(function: &'static str) -> Option<vk::Result> {
     let (call, time) = {
         let mut calls = CALLS.lock().expect("no call panics");
@@ -275,7 +275,7 @@ fn own(name: &CStr) -> Option<*const ()> {
         "vkCreateInstance" => Some(create_instance as *const ()),
         "vkCreateDevice" => Some(create_device as *const ()),
         "vkDestroyDevice" => Some(destroy_device as *const ()),
-        // The same function by its older name.
+        // The older name of the function.
         "vkWaitSemaphoresKHR" => watched(c"vkWaitSemaphores"),
         "vkGetSemaphoreCounterValueKHR" => watched(c"vkGetSemaphoreCounterValue"),
         _ => watched(name),
@@ -305,7 +305,7 @@ unsafe extern "system" fn get_device_proc_addr(device: vk::Device, name: *const 
     }
 }
 
-/// Where the loader begins.
+/// The function that the loader calls first.
 ///
 /// # Safety
 /// `interface` is the loader's structure.

@@ -212,7 +212,7 @@ fn another_device_goes_on() {
     }
 }
 
-/// What one device finished of a picture in bands, another keeps, and what that one finishes too.
+/// A band that one device finished of a picture is kept by another, which adds those that it finishes.
 #[test]
 fn bands_that_several_devices_finish_are_all_kept() {
     let (Some(device), Some(in_bands)) = (DEVICE.as_ref(), with_limits(|limits| limits.film_pixels = 40 * 8)) else { return };

@@ -112,8 +112,8 @@ fn arrays_in_chunks_give_the_same_picture() {
     }
 }
 
-/// The same picture would say little of primitives that it does not show: those on either side of every cut are taken away, and the
-/// background is seen in their place.
+/// The picture would say little of primitives that it does not show: those on either side of every cut are
+/// taken away, and the background is seen in their place.
 #[test]
 fn primitives_on_both_sides_of_a_cut_are_seen() {
     let Some(device) = DEVICE.as_ref() else { return };
@@ -159,7 +159,8 @@ fn plan(limits: &DeviceLimits) -> Result<Plan, PlanError> {
     Plan::new(&scene, &packed, limits, &options(StageMode::Fused))
 }
 
-/// What binds no more than the grid takes whole, in a few buffers of half its primitives, or not at all.
+/// A device that binds no more than this takes the grid whole, in a few buffers of half its primitives, or
+/// not at all.
 #[test]
 fn too_many_chunks_are_refused_with_both_sizes() {
     let limits = |max_storage_buffers| DeviceLimits { max_storage_buffers, max_array: CHUNK, ..DeviceLimits::default() };

@@ -22,7 +22,8 @@ fn mean(pixels: &[[f32; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|channel| pixels.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / pixels.len() as f64)
 }
 
-/// What is left and what was taken are the whole, no pixel is brighter than allowed, and both devices say the same.
+/// The clamped picture and the light that was taken are the whole, no pixel is brighter than allowed, and
+/// both devices give the same numbers.
 #[test]
 fn what_clamping_takes_is_counted() {
     let limit = 3.0;

@@ -1,4 +1,4 @@
-//! What the device's film holds: precision over many samples, samples that add up, bands that cover the picture.
+//! The device's film: precision over many samples, samples that add up, bands that cover the picture.
 
 use crate::common::device::{DEVICE, with_limits};
 use gpt::cpu::ReferenceRenderer;
@@ -145,7 +145,7 @@ fn two_halves_of_the_samples_make_the_whole_picture() {
     }
 }
 
-/// The same picture, whether it is made in one band or in many, with passes of any size.
+/// The picture is the same, whether it is made in one band or in many, with passes of any size.
 #[test]
 fn bands_cover_the_picture_and_do_not_show() {
     let mut scene = load::load(Some("spheres")).expect("it is built in");
@@ -204,7 +204,7 @@ impl Observer for StopAfter {
     }
 }
 
-/// What a render has that is stopped after so many passes and a sample for each pixel.
+/// The picture of a render that is stopped after so many passes and a sample for each pixel.
 fn interrupted(renderer: &mut dyn Renderer, scene: &Scene, samples: u32, passes: u32) -> Vec<Band> {
     let [width, height] = scene.film.size;
     stopped(renderer, scene, samples, (passes, u64::from(width) * u64::from(height)))
@@ -287,7 +287,8 @@ fn pixels_say_how_many_samples_they_have() {
     }
 }
 
-/// Where memory cuts the film into bands, they are finished one after the other, and an interrupted picture says what it lacks.
+/// Bands that memory makes of the film are finished one after the other, and an interrupted picture says what
+/// it lacks.
 #[test]
 fn a_film_that_memory_cuts_is_the_same_picture() {
     let mut scene = load::load(Some("cornell")).expect("it is built in");

@@ -151,7 +151,8 @@ fn the_guide_matters() {
     assert!(verdict.matching_share() < 0.9, "{verdict:#?}");
 }
 
-/// What a guide is learned from is the scene and its settings alone: a second render has the same bits, and parts of it add up to it.
+/// A guide is learned from the scene and its settings alone: a second render has the same bits, and parts of
+/// it add up to it.
 #[test]
 fn guided_pictures_are_the_same_from_run_to_run_and_in_parts() {
     let scene = round_the_corner();
@@ -202,7 +203,7 @@ fn guided_paths_have_the_same_mean() {
     assert!(control.p_value < 1e-3, "3 % go unnoticed: {unguided:?}, {planted:?}, {control:?}");
 }
 
-/// Where light comes round a corner, a guide lowers the squared error of a sample.
+/// A guide lowers the squared error of a sample if light comes round a corner.
 #[test]
 fn a_guide_pays_where_light_is_hard_to_find() {
     let mut scene = round_the_corner();

@@ -162,7 +162,7 @@ fn a_planes_depth_and_points_are_known() {
     }
 }
 
-/// Where the ray through a pixel's middle meets the sphere, and whether it does.
+/// The place where the ray through a pixel's middle meets the sphere, if it does.
 fn on_sphere(scene: &Scene, pixel: usize) -> Option<DVec3> {
     let (origin, direction) = ray(scene, pixel);
     let (along, beside) = (origin.dot(direction), origin.length_squared() - 1.0);
@@ -209,7 +209,7 @@ fn mirrors_are_followed() {
     }
 }
 
-/// What reaches the camera over one edge, two, and more, is all of it.
+/// The light that reaches the camera over one edge, two, and more, is all of it.
 #[test]
 fn layers_of_light_add_up_to_the_picture() {
     let scene = built_in("spheres");

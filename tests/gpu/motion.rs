@@ -45,7 +45,7 @@ fn glow(shutter: [f64; 2], shape: &str) -> Scene {
     glow_before(&format!("shutter = {shutter:?}"), shape)
 }
 
-/// The same with further lines of the camera.
+/// The scene with further lines of the camera.
 fn glow_before(camera: &str, shape: &str) -> Scene {
     let text = format!(
         "[film]\nsize = [{SIDE}, {SIDE}]\n[render]\nspp = 1024\nmax_depth = 1\nsampler = \"halton\"\n[camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\n\
@@ -82,7 +82,7 @@ fn coverages() -> [Coverage; 4] {
                    motion = [{ rotate = [0, 0, 1], degrees = 360 }]";
     // Its radius grows evenly from 0.3 to 0.9.
     let growing = "type = \"disk\"\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.3\nmotion = [{ scale = 3 }]";
-    // The same of a square, of half width 0.3 to 0.9 along x alone, as a mesh.
+    // A mesh of a square that widens from half width 0.3 to 0.9 along x alone.
     let widening = "type = \"mesh\"\npositions = [[-0.3, -2, 0], [0.3, -2, 0], [0.3, 2, 0], [-0.3, 2, 0]]\n\
                     faces = [[0, 1, 2], [0, 2, 3]]\nmotion = [{ scale = [3, 1, 1] }]";
     [

@@ -385,7 +385,7 @@ fn light_behind_veils_has_the_mean_of_paths_alone() {
     assert!(hypothesis::welch_t_test(&wrong, &paths_alone).p_value < 1e-4, "{wrong:?} and {paths_alone:?}");
 }
 
-/// What no surface is made of costs nothing: an opaque scene compiles none of it, and an opacity of 1 is none.
+/// Opaque scenes pay nothing for opacity: they compile none of it, and an opacity of 1 is none.
 #[test]
 fn opaque_scenes_compile_none_of_it() {
     use gpt::packed::PackedScene;

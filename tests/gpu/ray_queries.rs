@@ -63,8 +63,9 @@ fn picture(device: &Device, scene: &Scene, options: &PlanOptions) -> Vec<[u32; 3
     pixel_bits(device, scene, options, 0..scene.render.spp).0
 }
 
-/// What the device meets is tested again by our arithmetic, so hits are the same to the last bit. Only where rays meet two primitives at the
-/// same distance, or an edge that the device counts to the other triangle, a path may differ: these scenes have next to none.
+/// The device's hits are tested again by our arithmetic, so they are the same to the last bit. Only where
+/// rays meet two primitives at the same distance, or an edge that the device counts to the other triangle, a
+/// path may differ: these scenes have next to none.
 #[test]
 fn they_make_the_picture_of_our_hierarchy() {
     let Some(device) = RAY_QUERY_DEVICE.as_ref() else { return };
@@ -208,7 +209,7 @@ fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, PlanError> {
     Plan::new(scene, &packed(scene), limits, &by_ray_queries())
 }
 
-/// What people read where ray queries are asked for and cannot be.
+/// The message where ray queries are asked for and impossible.
 fn refusal(scene: &Scene, limits: &DeviceLimits) -> String {
     match plan(scene, limits) {
         Err(PlanError::DoesNotFit(why)) => why,

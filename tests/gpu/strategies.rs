@@ -19,7 +19,7 @@ fn render_on_cpu(scene: &Scene) -> Vec<[f32; 3]> {
     render(&mut ReferenceRenderer::new(scene).expect("the scene is supported"), scene)
 }
 
-/// The same picture by the reference and by the GPU, unless the latter is to be left out.
+/// The pictures of one scene by the reference and by the GPU, unless the latter is to be left out.
 fn on_every_device(scene: &Scene) -> Vec<(&'static str, Vec<[f32; 3]>)> {
     let mut pictures = vec![("cpu", render_on_cpu(scene))];
     if let Some(device) = DEVICE.as_ref() {
@@ -169,7 +169,7 @@ fn a_small_light_is_as_large_as_the_thin_lens_equation_says() {
             scene.render.spp = if everywhere { 1024 } else { 512 };
             scene.camera.projection = projection.unwrap_or(scene.camera.projection);
             scene.camera.focus_distance = FOCUS;
-            // The same size of blur in both projections.
+            // Both projections have one size of blur.
             let radius = if projection.is_some() { LENS_RADIUS / 2.0 } else { LENS_RADIUS };
             scene.camera.aperture = Some(Aperture { shape, radius });
             let blur = radius * lens_scale.abs() * pixels_per_unit;

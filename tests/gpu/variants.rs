@@ -31,7 +31,7 @@ fn together_and_alone() -> [Option<Device>; 2] {
     [DEVICE.clone(), with_limits(|limits| limits.subgroup_size = None)]
 }
 
-/// As if one binding held less than the knot's primitives.
+/// A device one of whose bindings holds less than the knot's primitives.
 fn in_chunks() -> Option<Device> {
     with_limits(|limits| limits.max_array = 1 << 18)
 }

@@ -70,7 +70,7 @@ impl Peak {
         MOST.load(Ordering::Relaxed).saturating_sub(self.before)
     }
 
-    /// Those that are still in use.
+    /// Bytes that are still in use.
     pub fn bytes_now(&self) -> usize {
         IN_USE.load(Ordering::Relaxed).saturating_sub(self.before)
     }

@@ -24,7 +24,7 @@ fn read(text: &str) -> Scene {
     load::load_toml_str(text, "grown.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Whether trial runs trace their paths, most of which go through thousands of spheres and blends.
+/// True if trial runs trace their paths, most of which go through thousands of spheres and blends.
 static WITH_TRIAL_RUNS: LazyLock<bool> = LazyLock::new(|| in_full("trial runs of scenes of twice the size"));
 
 /// Prepares the scene for both devices.
@@ -55,7 +55,7 @@ fn time_of_thread() -> Duration {
     START.elapsed()
 }
 
-/// What of the work grows by more than that of twice the size. Quadratic work grows by four.
+/// The kinds of work that grow by more than that of twice the size. Quadratic work grows by four.
 fn excess(size: usize, work: impl Fn(usize) + Sync) -> Option<String> {
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let measure = |size: usize| {
@@ -126,10 +126,8 @@ fn pile(material: &str, count: usize) -> String {
 const LAMP: &str = "[[light]]\ntype = \"point\"\nposition = [1, 2, 4]\nintensity = 5\n";
 
 #[test]
+#[ignore = "long: trial runs of surfaces in one place"]
 fn trial_runs_of_surfaces_in_one_place() {
-    if !in_full("trial runs of surfaces in one place") {
-        return;
-    }
     let _turn = take_turn();
     for (what, material, size) in [
         ("opaque", "type = \"diffuse\"\nreflectance = 0.5", 5000),
@@ -143,10 +141,8 @@ fn trial_runs_of_surfaces_in_one_place() {
 }
 
 #[test]
+#[ignore = "long: trial runs of lamps and guides among much"]
 fn trial_runs_of_lamps_and_guides_among_much() {
-    if !in_full("trial runs of lamps and guides among much") {
-        return;
-    }
     let _turn = take_turn();
     let veil = "type = \"diffuse\"\nreflectance = 0.5\nopacity = 0.5";
     let lamps: String =
@@ -157,10 +153,8 @@ fn trial_runs_of_lamps_and_guides_among_much() {
 }
 
 #[test]
+#[ignore = "long: trial runs of needles across each other"]
 fn trial_runs_of_needles_across_each_other() {
-    if !in_full("trial runs of needles across each other") {
-        return;
-    }
     let _turn = take_turn();
     assert_bounded("needles", 10_000, |count| {
         let mut positions = String::new();

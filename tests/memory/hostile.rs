@@ -12,7 +12,7 @@ use gpt::scene::Scene;
 /// Most memory for a text of a few thousand bytes.
 pub const MOST_FOR_TEXTS: usize = 64 << 20;
 
-/// What became of the files of one kind.
+/// The outcome of the files of one kind.
 pub struct Tally {
     kind: &'static str,
     most_memory: usize,
@@ -81,7 +81,7 @@ impl Tally {
         }
     }
 
-    /// What the reader answers; an error where reading the file broke a bound.
+    /// The reader's answer; an error where reading the file broke a bound.
     fn bounded(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> Answer) -> Result<Answer, String> {
         let peak = Peak::from_now();
         let start = Instant::now();
@@ -137,7 +137,7 @@ pub fn cases(normally: usize, full: usize) -> usize {
     })
 }
 
-/// What a reader answers: the scene's warnings, or the error.
+/// The answer of a reader: the scene's warnings, or the error.
 pub fn answer_of(loaded: Result<Scene, SceneError>) -> Answer {
     loaded.map(|scene| scene.warnings.join(" ")).map_err(|error| error.to_string())
 }

@@ -93,7 +93,7 @@ fn damaged_pictures() {
     }
 }
 
-/// The same small picture in every format that can be written here.
+/// One small picture in every format that can be written here.
 fn pictures(folder: &Path) -> Vec<(&'static str, Vec<u8>)> {
     let bytes = image::RgbImage::from_fn(7, 5, |x, y| image::Rgb([30 * x as u8, 50 * y as u8, 200]));
     let floats = image::Rgb32FImage::from_fn(7, 5, |x, y| image::Rgb([x as f32, y as f32 * 0.5, 3.0]));
@@ -133,7 +133,7 @@ const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\npr
     element tristrips 1\nproperty list uint int vertex_indices\nend_header\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n1 1 0 0 0 1 1 1\n\
     0.5 0.2 0 0 0 1 0.5 0.5\n0 1 -1e-1 0 0 1 0 1\n5 0 1 2 3 4\n3 0 1 2\n6 0 1 2 -1 3 4\n";
 
-/// As [`PLY`], in binary.
+/// The file [`PLY`] in binary form.
 fn binary_ply() -> Vec<u8> {
     let (header, data) = PLY.split_once("end_header\n").expect("a header has an end");
     let mut bytes = format!("{}end_header\n", header.replace("ascii", "binary_little_endian")).into_bytes();

@@ -1,5 +1,5 @@
 //! Damaged scenes of other programs, and damaged meshes that they name: each is read or refused, soon, and within a bound of memory. The long form
-//! (`scripts/test --all`) makes 100,000 of each kind, and `GPT_FUZZ_CASES` says how many otherwise.
+//! (`scripts/test --full`) makes 100,000 of each kind, and `GPT_FUZZ_CASES` says how many otherwise.
 
 use std::io::Write as _;
 
@@ -24,7 +24,7 @@ fn damage(kind: &'static str, name: &str, whole: &[u8], others: &[(&str, &[u8])]
     let read = |bytes: &[u8]| {
         std::fs::write(path(name), pack(bytes)).expect("the folder can be written to");
         let loaded = load::load(path(scene).to_str());
-        // What is there without a frame may be nowhere at one.
+        // A scene that is valid without a frame may be invalid at one.
         if let Ok(scene) = &loaded {
             let _ = scene.at_frame(7.0);
         }
@@ -245,7 +245,7 @@ fn around(kind: &str, file: &str, bsdf: &str) -> String {
     format!(r#"<scene version="3.0.0"><shape type="{kind}"><string name="filename" value="{file}"/>{bsdf}</shape></scene>"#)
 }
 
-/// What stands in a mesh of Mitsuba's own format, before it is packed.
+/// The content of a mesh in Mitsuba's own format, before it is packed.
 fn serialized_content(version: u16, double: bool) -> Vec<u8> {
     let mut bytes = (0x1_u32 | 0x2 | if double { 0x2000 } else { 0x1000 }).to_le_bytes().to_vec();
     if version == 4 {
@@ -291,7 +291,7 @@ const PAINTED: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x
     property uchar green\nproperty uchar blue\nelement face 2\nproperty list uchar int vertex_indices\nproperty float weight_0\nend_header\n\
     -1 -1 0 255 0 0\n1 -1 0 0 255 0\n1 1 0 0 0 255\n-1 1 0 255 255 0\n3 0 1 2 0.25\n3 0 2 3 0.75\n";
 
-/// As [`PAINTED`], in binary.
+/// The file [`PAINTED`] in binary form.
 fn binary_ply(big_endian: bool) -> Vec<u8> {
     let (header, data) = PAINTED.split_once("end_header\n").expect("a header has an end");
     let order = if big_endian { "binary_big_endian" } else { "binary_little_endian" };

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use crate::random::SplitMix64;
 
-/// What a reader says of a file: its warnings, or its error.
+/// A reader's answer to a file: its warnings, or its error.
 pub type Answer = Result<String, String>;
 
 /// Most files of one kind, and most bytes of one, that are damaged further.
@@ -28,7 +28,7 @@ pub struct Seeds {
     answers: HashMap<String, usize>,
 }
 
-/// What a kind is called in names of files.
+/// The name of a kind in names of files.
 fn folder_name(kind: &str) -> String {
     kind.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '-' }).collect()
 }
@@ -44,7 +44,7 @@ impl Seeds {
         Self { kind, whole: whole.to_vec(), kept: files.len(), files, answers: HashMap::new() }
     }
 
-    /// Those that are kept, as they are.
+    /// The seeds that are kept, unchanged.
     pub fn kept(&self) -> Vec<Vec<u8>> {
         self.files[..self.kept].to_vec()
     }

@@ -1,4 +1,4 @@
-//! Whether a sampler of directions follows the density it states.
+//! A test that a sampler of directions follows the density it states.
 //!
 //! Directions are counted in bins over (cos θ, φ); the density is integrated over each bin, and Pearson's χ² test compares the two.
 //! A sampler may decline to return a direction (a lobe cut by the horizon): its density then integrates to less than 1, and the
@@ -65,7 +65,7 @@ impl SphereBins {
     }
 }
 
-/// What [`test_directional_sampler`] found.
+/// The result of [`test_directional_sampler`].
 #[derive(Debug, Clone, Copy)]
 pub struct DirectionalReport {
     pub samples: u64,
@@ -125,7 +125,8 @@ pub fn test_directional_sampler(
         expected.push(part.value);
         integral += part;
     }
-    // What is 1 within the quadrature's error is 1: no sample is then expected to be declined.
+    // An integral that is 1 within the quadrature's error counts as 1: no sample is then expected to be
+    // declined.
     let normalised = (1.0 - integral.value).abs() <= slack(integral);
     let scale = samples as f64 / if normalised { integral.value } else { 1.0 };
     expected.iter_mut().for_each(|part| *part *= scale);

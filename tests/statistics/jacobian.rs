@@ -1,4 +1,4 @@
-//! Whether a sampling map stretches the unit square as its density says.
+//! A test that a sampling map stretches the unit square as its density says.
 //!
 //! A map x(u₁, u₂) of uniform numbers onto a surface has the density 1/|∂x/∂u₁ × ∂x/∂u₂| per unit of area; on the unit sphere that is
 //! the density per solid angle.
@@ -22,7 +22,7 @@ pub fn density_by_differences(map: impl Fn([f64; 2]) -> DVec3, u: [f64; 2]) -> f
     derivative(0).cross(derivative(1)).length().recip()
 }
 
-/// Where a stated density is furthest from the map's own.
+/// The place where a stated density is furthest from the map's own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JacobianDeviation {
     pub u: [f64; 2],

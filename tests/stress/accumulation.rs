@@ -52,7 +52,7 @@ fn varying(spp: u32) -> Scene {
 }
 
 #[allow(dead_code, reason = "the bench shows it nothing wrong")]
-/// What a film without compensation would make of the constant.
+/// The sum that a film without compensation would make of the constant.
 pub fn plain_sum(spp: u32) -> Finding {
     let sum = (0..spp).fold(0.0_f32, |sum, _| sum + 0.1);
     let error = (f64::from(sum) / f64::from(spp) / f64::from(0.1_f32) - 1.0).abs();

@@ -25,7 +25,7 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
     built_in.chain(random).flat_map(|(name, scene)| both_ways(effort, &name, &scene)).collect()
 }
 
-/// As the plan would have it, and as real GPUs run it.
+/// Both modes: the plan's own choice, and the mode of real GPUs.
 fn both_ways(effort: Effort, name: &str, scene: &Scene) -> Vec<Finding> {
     let wavefront = PlanOptions { traversal: TraversalChoice::Bvh, stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
     let ways = [("fused", PlanOptions::default()), ("wavefront", wavefront)];

@@ -1,4 +1,4 @@
-//! What the cases must notice: each kind of check, shown something wrong, complains.
+//! Controls of the cases: each kind of check complains about a scene that is wrong.
 
 use gpt::plan::PlanOptions;
 use gpt::scene::{ColorInput, Scene};
@@ -6,7 +6,7 @@ use gpt::scene::{ColorInput, Scene};
 use super::support::{DEVICE, Finding, LEAST_MATCHING, compare_with, judged, render};
 use super::{accumulation, intersections, scale, self_intersection};
 
-/// What was shown to a check, and what it made of it.
+/// The wrong scene that a check was given, and the finding.
 pub fn complaints() -> Vec<(&'static str, Finding)> {
     if DEVICE.is_none() {
         return Vec::new();

@@ -103,7 +103,7 @@ fn closed_mesh(effort: Effort) -> Vec<Finding> {
 }
 
 #[allow(dead_code, reason = "the bench shows it nothing wrong")]
-/// The same with a triangle left out.
+/// The mesh with a triangle left out.
 pub fn cracked_mesh() -> Scene {
     let mut scene = glowing(64, 4, "[camera]\nposition = [0, 0, 0]\nlook_at = [0, 0, 1]\nvfov = 90");
     let (positions, mut faces) = crumpled_sphere(20);

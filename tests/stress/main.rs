@@ -79,7 +79,7 @@ fn what_is_not_finite_is_refused_and_said() {
     assert_all(&not_finite::findings(effort()));
 }
 
-/// The same checks, shown something wrong.
+/// The checks complain about scenes that are wrong.
 #[test]
 fn what_is_wrong_is_noticed() {
     for (shown, finding) in controls::complaints() {

@@ -1,4 +1,4 @@
-//! What single precision cannot hold is refused, counted and said.
+//! Numbers beyond single precision are refused, counted and reported.
 
 use std::process::Command;
 

@@ -98,7 +98,7 @@ const NO_THICKNESS: &str = " # no thickness";
 struct Writer {
     random: SplitMix64,
     text: String,
-    /// Of each material so far: it emits, or some part of it does.
+    /// For each material so far, true if it emits, or some part of it does.
     emits: Vec<bool>,
 }
 
@@ -322,7 +322,7 @@ impl Writer {
         }
     }
 
-    /// Where a light is: not in the ground, of which it would be on both sides or on none.
+    /// The place of a light: not in the ground, of which it would be on both sides or on none.
     fn light_position(&mut self) -> String {
         self.triple(3.0).replace(", 0.0, ", ", 0.01, ")
     }

@@ -171,7 +171,7 @@ fn point_under(lamp: &str, eye: f64) -> Scene {
     lit_point(lamp, "cone", [eye, eye, 0.0])
 }
 
-/// The same with points of the lamp drawn in any way, seen from any place.
+/// A scene whose lamp is sampled in any way and seen from any place.
 fn lit_point(lamp: &str, light_sampling: &str, eye: [f64; 3]) -> Scene {
     // A field of view so narrow that all pixels see the same point, which are replications of each other.
     scene(&format!(
@@ -184,7 +184,7 @@ fn lit_point(lamp: &str, light_sampling: &str, eye: [f64; 3]) -> Scene {
     ))
 }
 
-/// As a comparison with the reference, and the device's mean against a truth, to the relative `margin`.
+/// A comparison with the reference, and of the device's mean with a truth, to the relative `margin`.
 fn against_truth(case: String, scene: &Scene, truth: f64, margin: f64) -> Option<Finding> {
     let verdict = compare_with(scene, scene, &PlanOptions::default())?;
     let error = mean_of(&verdict.gpu_mean) / truth - 1.0;

@@ -1,4 +1,4 @@
-//! The same room from a millionth of a unit to a million units wide, and far from the origin.
+//! One room from a millionth of a unit to a million units wide, and far from the origin.
 //!
 //! Radiance does not change where all lengths are multiplied by a factor, nor where everything is moved. So the device's picture of the
 //! scaled or moved room is held against the reference's picture of the room at its own size, with the same random numbers. A dark or

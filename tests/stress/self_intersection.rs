@@ -145,7 +145,7 @@ fn clear_glass(unit: f64) -> Vec<Finding> {
         .collect()
 }
 
-/// Where a sphere touches the floor, seen from a tenth of its radius away: the shadow starts at the contact.
+/// The contact of a sphere with the floor, seen from a tenth of its radius away: the shadow starts there.
 fn contact(radius: f64) -> Option<Finding> {
     let scene = scene(&format!(
         "[film]\nsize = [48, 48]\n[render]\nspp = 8\nmax_depth = 3\n\

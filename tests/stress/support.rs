@@ -1,4 +1,4 @@
-//! What the cases share: a device, effort, findings and how they are judged.
+//! Helpers that the cases share: a device, effort, findings and how they are judged.
 
 pub use crate::common::device::{DEVICE, with_limits};
 use crate::common::ray_queries::RAY_QUERY_DEVICE;
@@ -27,13 +27,13 @@ impl Effort {
     }
 }
 
-/// What was measured in one case.
+/// The measurement of one case.
 #[derive(Debug, Clone)]
 pub struct Finding {
     pub case: String,
     /// Name of the measure and its value, as the page shows them.
     pub measures: Vec<(&'static str, String)>,
-    /// What is wrong, if something is.
+    /// The complaint, if something is wrong.
     pub complaint: Option<String>,
 }
 
@@ -104,19 +104,20 @@ pub fn judge(case: impl Into<String>, scene: &Scene, truth: &Scene) -> Option<Fi
     judge_with(case, scene, truth, LEAST_MATCHING)
 }
 
-/// As [`judge`], for a case in which a smaller share of paths matches to the last digits. Means are held to each other all the same.
+/// Judges as [`judge`] does, for a case in which a smaller share of paths matches to the last digits. Means
+/// are compared all the same.
 pub fn judge_with(case: impl Into<String>, scene: &Scene, truth: &Scene, least_matching: f64) -> Option<Finding> {
     compare_with(scene, truth, &PlanOptions::default()).map(|verdict| judged(case, &verdict, least_matching))
 }
 
-/// What [`judge_with`] makes of a verdict.
+/// The finding that [`judge_with`] makes of a verdict.
 pub fn judged(case: impl Into<String>, verdict: &Verdict, least_matching: f64) -> Finding {
     let right =
         verdict.rejections.is_empty() && verdict.non_finite_samples == 0 && verdict.loosely_matching_share() >= least_matching;
     measured(case, verdict).require(right, || format!("{verdict:#?}"))
 }
 
-/// As [`judged`], without a judgement.
+/// The finding of [`judged`], without a judgement.
 pub fn measured(case: impl Into<String>, verdict: &Verdict) -> Finding {
     Finding::new(case)
         .with("paths that match", format!("{:.3} %", 100.0 * verdict.loosely_matching_share()))
@@ -125,13 +126,13 @@ pub fn measured(case: impl Into<String>, verdict: &Verdict) -> Finding {
         .with("not finite", verdict.non_finite_samples)
 }
 
-/// Of the whole pictures, relative, in the worst channel.
+/// The relative difference of the whole pictures, in the worst channel.
 pub fn mean_difference(verdict: &Verdict) -> f64 {
     let relative = |channel: usize| (verdict.gpu_mean[channel] / verdict.cpu_mean[channel] - 1.0).abs();
     (0..3).filter(|&channel| verdict.cpu_mean[channel] != 0.0).map(relative).fold(0.0, f64::max)
 }
 
-/// Of the three channels.
+/// The mean of the three channels.
 pub fn mean_of(channels: &[f64; 3]) -> f64 {
     channels.iter().sum::<f64>() / 3.0
 }
@@ -141,7 +142,7 @@ pub fn render(scene: &Scene) -> Option<Vec<f64>> {
     render_with(scene, &PlanOptions::default())
 }
 
-/// As [`render`], with a plan of its own.
+/// Renders as [`render`] does, with a plan of its own.
 pub fn render_with(scene: &Scene, options: &PlanOptions) -> Option<Vec<f64>> {
     render_band(scene, options).map(|(band, _)| band.mean.iter().map(|pixel| f64::from(pixel[0])).collect())
 }
@@ -152,7 +153,7 @@ pub fn render_band(scene: &Scene, options: &PlanOptions) -> Option<(Band, Render
     Some(render_band_on(device.as_ref()?, scene, options))
 }
 
-/// As [`render_band`], on this device.
+/// Renders as [`render_band`] does, on this device.
 pub fn render_band_on(device: &Device, scene: &Scene, options: &PlanOptions) -> (Band, RenderReport) {
     let mut renderer = GpuRenderer::on(device, scene, options).expect("the scene fits");
     whole_picture(&mut renderer, scene)

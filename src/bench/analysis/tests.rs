@@ -125,7 +125,7 @@ fn a_slowdown_of_ten_per_cent_is_seen() {
         let time = comparison.time_at_equal_samples;
         assert_eq!(time.verdict, Verdict::More, "{time:?}");
         assert!((time.interval.estimate - 1.1).abs() < 0.04, "{time:?}");
-        // The same samples have the same error, so at equal time the slower one is worse by what it is slower.
+        // Equal samples have equal errors, so at equal time the slower setting is worse by its slowness.
         assert!((comparison.efficiency.interval.estimate * 1.1 - 1.0).abs() < 0.05, "{comparison:?}");
         let at_equal_time = comparison.error_at_equal_time.unwrap().ratio;
         assert!((at_equal_time.interval.estimate - 1.1).abs() < 0.06, "{at_equal_time:?}");

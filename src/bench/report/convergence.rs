@@ -13,7 +13,7 @@ use super::pictures;
 use super::plot::{Point, Series, css_color, log_log};
 use crate::compare::Metric;
 
-/// As papers write it.
+/// The name that papers use.
 fn metric_name(metric: Metric) -> &'static str {
     if metric == Metric::RelMse { "relMSE" } else { "MSE" }
 }
@@ -45,7 +45,7 @@ pub fn convergence_csv(scenes: &[SceneConvergence]) -> Result<Vec<u8>, BenchErro
     csv_text(&["scene", "setting", "device", "spp", "replication", "mse", "relmse", "seconds"], rows)
 }
 
-/// What a person at the terminal wants to know of one scene.
+/// The summary of one scene for the terminal.
 pub fn convergence_text(scene: &SceneConvergence) -> String {
     let mut text = format!(
         "{}  {}x{}, {} replications, reference of {} spp, own relMSE {}\n",
@@ -97,7 +97,7 @@ fn floor_sentence(floor: &Floor) -> String {
 /// The whole report.
 ///
 /// # Errors
-/// What charts and pictures report.
+/// Errors of charts and pictures.
 pub fn convergence_page(scenes: &[SceneConvergence], machine: &Machine) -> Result<String, BenchError> {
     let sections: Result<Vec<Markup>, BenchError> =
         scenes.iter().enumerate().map(|(index, scene)| section(index, scene)).collect();

@@ -1,4 +1,4 @@
-//! What reports are made of: the page, tables, numbers with their spread.
+//! The elements of reports: the page, tables, numbers with their spread.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -83,7 +83,7 @@ pub(super) fn ratio(ratio: &Ratio) -> Markup {
     }
 }
 
-/// The same for a terminal.
+/// The ratio for a terminal.
 pub(super) fn ratio_text(ratio: &Ratio) -> String {
     let Interval { estimate, low, high, .. } = ratio.interval;
     let verdict = match ratio.verdict {

@@ -15,7 +15,7 @@ pub const HEAT_STOPS: [(&str, [f32; 3]); 4] =
 /// A picture as the address of an image, PNG inside, shown as the previews of renders are.
 ///
 /// # Errors
-/// What the encoder reports.
+/// Errors of the encoder.
 pub fn picture_address(picture: &Image) -> Result<String, BenchError> {
     let developer = Developer::new(&Display::default(), &Meter::default());
     address(picture.width, picture.height, picture.pixels.iter().map(|pixel| developer.bytes(*pixel)))
@@ -24,7 +24,7 @@ pub fn picture_address(picture: &Image) -> Result<String, BenchError> {
 /// A map of |picture − reference| over the reference's brightness, on a logarithmic scale.
 ///
 /// # Errors
-/// What the encoder reports.
+/// Errors of the encoder.
 pub fn heat_address(picture: &Image, reference: &Image) -> Result<String, BenchError> {
     let pixels = picture.pixels.iter().zip(&reference.pixels).map(|(pixel, expected)| heat(relative_error(pixel, expected)));
     address(picture.width, picture.height, pixels)

@@ -56,7 +56,7 @@ pub struct Series {
 /// Draws curves on logarithmic axes; an empty text where nothing can be drawn.
 ///
 /// # Errors
-/// What the drawing library reports.
+/// Errors of the drawing library.
 pub fn log_log(series: &[Series], x_label: &str, y_label: &str) -> Result<String, BenchError> {
     let positive = |value: &f64| *value > 0.0 && value.is_finite();
     let points = || series.iter().flat_map(|one| &one.points).filter(|point| positive(&point.x) && positive(&point.y));

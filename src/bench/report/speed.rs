@@ -11,7 +11,7 @@ use super::super::subject::BenchError;
 use super::elements::{self, csv_text, number, page, ratio, ratio_text, spread, spread_text};
 use super::plot::{Point, Series, log_log};
 
-/// What a row is called: the scene, or the size.
+/// The label of a row: the scene, or the size.
 fn label(row: &SpeedRow) -> String {
     row.count.map_or_else(|| row.scene.clone(), |count| count.to_string())
 }
@@ -110,7 +110,7 @@ pub fn speed_text(table: &SpeedTable) -> String {
 /// The whole report.
 ///
 /// # Errors
-/// What charts report.
+/// Errors of charts.
 pub fn speed_page(tables: &[SpeedTable], machine: &Machine) -> Result<String, BenchError> {
     let sections: Result<Vec<Markup>, BenchError> = tables.iter().map(section).collect();
     let content = html! {

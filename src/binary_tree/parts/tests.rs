@@ -186,7 +186,7 @@ fn what_is_kept_is_not_built_again_until_it_is_forgotten() {
         assert_eq!(built_for(rest, squashed), 1, "{squashed}");
         assert_eq!(built_for(rest, squashed), 0, "it stands there again");
     }
-    // Where the pose for reference is thin or flat, trees of it are of use for what is as thin alone.
+    // A pose for reference that is thin or flat gives trees that only help poses as thin.
     for (thin, angle) in [(line, 0.5), (Vec3::new(1.0, 1.0, 0.0), 0.6)] {
         assert_eq!(built_for(Mat3::from_diagonal(thin), turn(angle)), 1, "{thin}");
     }

@@ -1,4 +1,4 @@
-//! What can be typed after `gpt bench`.
+//! The arguments of `gpt bench`.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -62,7 +62,7 @@ pub enum Bench {
         Stage times are the device's own time stamps around every dispatch of one pass that fills the pool of paths; adapters without time stamps \
         have none. Scenes that do not fit the device say so in their row.")]
     Speed(SpeedArguments),
-    /// What each feature costs: used, and only compiled in
+    /// Measure the cost of each feature: used, and only compiled in
     ///
     /// A room of two boxes and a lamp is rendered without the feature, by kernels that hold it though nothing needs it, and with the feature in use;
     /// the three take turns. Only on a GPU, real or software, since only its kernels leave out what a scene does not use.
@@ -86,7 +86,7 @@ pub struct SpeedArguments {
     pub traversal: TraversalArguments,
     #[command(flatten)]
     pub film: FilmArguments,
-    /// What grows [default: everything, and the scenes as they are]
+    /// Quantities that grow [default: everything, and the scenes as they are]
     #[arg(long, value_name = "WHAT,…", value_delimiter = ',', value_parser = by_name::<Growth>())]
     pub growth: Vec<Growth>,
     /// The larger sizes too: up to ten million triangles, 4096x4096 pixels, 10,000 lights, 64 leaves, a million trees. Takes minutes and gigabytes
@@ -183,7 +183,8 @@ pub struct AxisArguments {
     device: Vec<DeviceChoice>,
     #[command(flatten)]
     settings: SettingAxes,
-    /// Whether pictures are denoised, by Open Image Denoise with albedo and normals; what that takes counts, and what stays of the error is a floor
+    /// Denoise the pictures by Open Image Denoise with albedo and normals; its time counts, and the error
+    /// that it leaves is a floor
     #[arg(long, value_name = "NO|YES,…", value_delimiter = ',', value_parser = clap::builder::BoolishValueParser::new())]
     denoise: Vec<bool>,
 }

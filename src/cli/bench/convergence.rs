@@ -23,7 +23,7 @@ const MOST_SETTINGS: usize = 32;
 /// Longer side of the picture where no size is given.
 const DEFAULT_SIDE: u32 = 128;
 
-/// What the JSON file holds.
+/// The content of the JSON file.
 #[derive(Serialize)]
 struct File<'a> {
     machine: &'a Machine,
@@ -38,7 +38,7 @@ pub fn run(arguments: &ConvergenceArguments, plan: &PlanOptions, access: &LoadOp
     if settings > MOST_SETTINGS {
         return Err(Failure::usage(format!("these options make {settings} settings; {MOST_SETTINGS} can be compared at once")));
     }
-    let results = Results::prepare(&arguments.output, "convergence")?;
+    let results = Results::prepare(&arguments.output, "convergence", &access.log)?;
     interrupt::install()?;
     let options = ConvergenceOptions {
         axes,

@@ -5,6 +5,7 @@ use gpt::bench::features::{FeatureCost, FeatureOptions, measure};
 use gpt::bench::machine::Machine;
 use gpt::bench::report::{features_csv, features_page, features_text};
 use gpt::bench::subject::{BenchError, Devices};
+use gpt::load::FileLog;
 use gpt::plan::PlanOptions;
 use serde::Serialize;
 
@@ -13,7 +14,7 @@ use super::output::{OnlyStops, Results, command};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{interrupt, terminal};
 
-/// What the JSON file holds.
+/// The content of the JSON file.
 #[derive(Serialize)]
 struct File<'a> {
     machine: &'a Machine,
@@ -25,7 +26,7 @@ pub fn run(arguments: &FeatureArguments, plan: &PlanOptions) -> Result<Exit, Fai
     let wanted = wanted(&arguments.features)?;
     let options =
         FeatureOptions { device: arguments.device.clone(), size: arguments.size, spp: arguments.spp, rounds: arguments.rounds };
-    let results = Results::prepare(&arguments.output, "features")?;
+    let results = Results::prepare(&arguments.output, "features", &FileLog::default())?;
     interrupt::install()?;
     let mut devices = Devices::for_plans(plan);
     let mut costs: Vec<FeatureCost> = Vec::new();

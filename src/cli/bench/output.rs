@@ -1,16 +1,17 @@
-//! Where results go, and what is told on the way.
+//! The files of a bench's results, and its messages meanwhile.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-use gpt::output::{AtomicFile, OutputError, check_target};
+use gpt::load::FileLog;
+use gpt::output::{AtomicFile, OutputError};
 use gpt::renderer::Observer;
 use serde::Serialize;
 
 use super::arguments::OutputArguments;
 use crate::cli::exit::Failure;
 use crate::cli::shell::quoted;
-use crate::cli::{interrupt, terminal};
+use crate::cli::{interrupt, outputs, terminal};
 
 /// An observer that shows nothing, since renders are many and short, and passes on Ctrl-C.
 pub struct OnlyStops;
@@ -27,7 +28,7 @@ pub struct Results {
     folder: PathBuf,
     bench: &'static str,
     quiet: bool,
-    /// What was said last.
+    /// The last message.
     last: RefCell<String>,
 }
 
@@ -35,11 +36,13 @@ impl Results {
     /// Makes the folder, so that hours of work do not end at a place that cannot be written to.
     ///
     /// # Errors
-    /// What the file system says.
-    pub fn prepare(arguments: &OutputArguments, bench: &'static str) -> Result<Self, Failure> {
+    /// Errors of the file system.
+    pub fn prepare(arguments: &OutputArguments, bench: &'static str, read: &FileLog) -> Result<Self, Failure> {
         let folder = arguments.output.clone().unwrap_or_else(|| Path::new("gpt-bench").join(bench));
         std::fs::create_dir_all(&folder).map_err(|source| OutputError::Write { path: folder.clone(), source })?;
-        files(&folder, bench).iter().try_for_each(|path| check_target(path))?;
+        let files = files(&folder, bench);
+        outputs::check(files.iter().map(PathBuf::as_path), None)?;
+        outputs::check_unread(files.iter().map(PathBuf::as_path), read)?;
         Ok(Self { folder, bench, quiet: arguments.quiet, last: RefCell::default() })
     }
 
@@ -53,7 +56,7 @@ impl Results {
     /// Writes the page, all numbers as JSON, and the rows.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn write(&self, results: &impl Serialize, csv: &[u8], page: &str) -> Result<(), Failure> {
         let json = serde_json::to_vec_pretty(results).map_err(|error| Failure::Other(error.to_string()))?;
         let [json_file, csv_file, report] = files(&self.folder, self.bench);
@@ -70,7 +73,7 @@ fn files(folder: &Path, bench: &str) -> [PathBuf; 3] {
     [format!("{bench}.json"), format!("{bench}.csv"), "report.html".to_owned()].map(|name| folder.join(name))
 }
 
-/// What was typed.
+/// The command line as it was typed.
 pub fn command() -> String {
     let arguments = std::env::args_os().skip(1).map(|argument| quoted(&argument.to_string_lossy()));
     std::iter::once("gpt".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")

@@ -15,7 +15,7 @@ use super::output::{OnlyStops, Results, command};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{interrupt, terminal};
 
-/// What the JSON file holds.
+/// The content of the JSON file.
 #[derive(Serialize)]
 struct File<'a> {
     machine: &'a Machine,
@@ -48,7 +48,7 @@ pub fn run(arguments: &SpeedArguments, plan: PlanOptions, access: &LoadOptions) 
         depth: arguments.depth,
         rounds: arguments.rounds,
     };
-    let results = Results::prepare(&arguments.output, "speed")?;
+    let results = Results::prepare(&arguments.output, "speed", &access.log)?;
     interrupt::install()?;
     let mut devices = Devices::for_plans(&options.plan);
     let mut tables: Vec<SpeedTable> = Vec::new();

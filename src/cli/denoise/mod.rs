@@ -9,9 +9,7 @@ use gpt::denoise::bias::Bias;
 use gpt::denoise::library::{Library, OidnError};
 use gpt::denoise::{Raw, denoise};
 use gpt::film::Band;
-use gpt::output::{
-    Channels, Display, Image, OutputError, PartSpec, PictureFile, PictureFormat, PictureSpec, as_own, read_picture,
-};
+use gpt::output::{Channels, Display, Image, OutputError, PartSpec, PictureFile, PictureFormat, PictureSpec, read_picture};
 use serde::Serialize;
 
 pub use arguments::DenoiseArguments;
@@ -24,7 +22,7 @@ use super::terminal;
 pub const DENOISER_KEY: &str = "gpt:denoiser";
 pub const BIAS_KEY: &str = "gpt:denoiserBias";
 
-/// What `--json` prints. Its keys stay as they are; new ones may be added.
+/// The JSON that `--json` prints. Its keys stay as they are; new ones may be added.
 #[derive(Serialize)]
 struct Report<'a> {
     denoiser: &'a str,
@@ -54,7 +52,7 @@ pub fn run(arguments: &DenoiseArguments) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// What denoising came to.
+/// The outcome of denoising.
 struct Denoised {
     denoiser: String,
     layers: &'static str,
@@ -62,7 +60,7 @@ struct Denoised {
 }
 
 impl Denoised {
-    /// As people read it.
+    /// The outcome in a sentence for people.
     fn sentence(&self, outputs: &[(PathBuf, PictureFormat)]) -> String {
         let files: Vec<String> = outputs.iter().map(|(path, _)| path.display().to_string()).collect();
         format!("{}: by {}, layers: {}; {}", files.join(", "), self.denoiser, self.layers, self.bias)
@@ -116,7 +114,7 @@ fn write(
 /// The file of a render that denoising reads.
 ///
 /// # Errors
-/// Where there is none.
+/// Outputs without an EXR file.
 pub fn raw_output(outputs: &[(PathBuf, PictureFormat)]) -> Result<&Path, Failure> {
     let raw = outputs.iter().find(|(path, format)| *format == PictureFormat::Exr && !is_stdout(path));
     let missing = || Failure::usage("--denoise: the picture is read from an .exr file, and -o names none");
@@ -136,7 +134,7 @@ pub fn denoise_render(
     let raw = raw_output(outputs)?;
     let beside = beside(outputs);
     // The next render of the same scene writes it again.
-    let picture = as_own(raw, || read_raw(raw))?;
+    let picture = read_raw(raw)?;
     let done = denoise_into(library, &picture, &beside, display)?;
     if !quiet {
         terminal::note(&done.sentence(&beside));

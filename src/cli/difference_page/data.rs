@@ -1,4 +1,4 @@
-//! What the page's script reads: JSON with the pixels in base64.
+//! The data that the page's script reads: JSON with the pixels in base64.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -44,7 +44,7 @@ pub fn json(shown: &Shown) -> String {
 fn score(channels: &[Finding]) -> Option<(u32, u32, u32, u32, f64)> {
     let worst = channels.iter().min_by(|a, b| a.test.p_value.total_cmp(&b.test.p_value))?;
     let region = worst.region;
-    // What is beyond all reckoning is far out, and JSON has no infinity.
+    // A statistic that is not a number stands far out; JSON has no infinity.
     let distance = if worst.test.statistic.is_nan() { 99.0 } else { (-worst.test.statistic).clamp(-99.0, 99.0) };
     Some((region.x, region.y, region.width, region.height, (distance * 100.0).round() / 100.0))
 }

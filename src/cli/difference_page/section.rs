@@ -1,10 +1,10 @@
-//! What a page shows.
+//! The content of a page.
 
 use gpt::compare::flip::FlipMap;
 use gpt::compare::{ImageComparison, Region};
 use gpt::output::Image;
 
-/// What is shown of one pair of pictures.
+/// The section of one pair of pictures.
 pub struct Section<'a> {
     pub title: String,
     pub verdict: String,
@@ -20,7 +20,7 @@ pub struct Section<'a> {
 
 /// Two pictures of one size.
 pub struct Shown<'a> {
-    /// What they are called; the first is the one that the second is held against.
+    /// The pictures' names; the first is the one that the second is compared with.
     pub labels: [&'static str; 2],
     pub images: [&'a Image; 2],
     pub tiles: &'a ImageComparison,

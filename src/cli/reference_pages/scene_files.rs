@@ -65,7 +65,7 @@ type     = "environment"
 radiance = 0.1
 "#;
 
-/// What holds for all of a scene file and no key says.
+/// Rules that hold for all of a scene file and that no key states.
 const CONVENTIONS: &str = "\
 Scenes are [TOML](https://toml.io). An unknown key, a missing file, a wrong type, a number out of range and an unknown name are errors \
 that name file, line, key and the valid choices; nothing is ignored silently. `gpt check SCENE` checks a scene without rendering it. Editors \
@@ -162,7 +162,7 @@ impl<'s> Page<'s> {
         keys.map(row).collect()
     }
 
-    /// What a value may be, in words.
+    /// The values that are allowed, in words.
     fn words(&mut self, value: &'s Value) -> String {
         if let Some(name) = value["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/")) {
             return self.type_words(name);
@@ -188,7 +188,7 @@ impl<'s> Page<'s> {
         }
     }
 
-    /// What a value of a type with a name may be.
+    /// The values that a named type allows.
     fn type_words(&mut self, name: &'s str) -> String {
         let target = &self.schema["$defs"][name];
         if name == "TextureReference" {
@@ -223,7 +223,7 @@ impl<'s> Page<'s> {
     }
 }
 
-/// What a key is for, what its values stand for, and what holds where it is left out.
+/// The purpose of a key, the meaning of its values, and its default.
 fn meaning(value: &Value) -> String {
     let mut meaning = description(value);
     for choice in entry_list(value, "oneOf").filter(|choice| !description(choice).is_empty()) {

@@ -9,7 +9,7 @@ use crate::cli::exit::Failure;
 use crate::cli::test_arguments::TestArguments;
 use crate::cli::typed::{CommandLine, Typed};
 
-/// Where golden pictures are, below the folder of the scenes.
+/// The folder of golden pictures, below the folder of the scenes.
 const GOLDEN: &str = "golden";
 
 /// A scene and where its golden picture is.
@@ -43,7 +43,7 @@ fn command_again((arguments, typed): (&TestArguments, &Typed), name: &str, scene
     if (of_one - usual).abs() < 1e-12 { command } else { command.with_option("--false-alarms", of_one.to_string()) }
 }
 
-/// What is to be tested, in the order of the names.
+/// The tests that are asked for, in the order of their names.
 ///
 /// # Errors
 /// A folder that cannot be read or has no scenes, and names that it does not have.

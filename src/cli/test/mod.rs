@@ -9,6 +9,7 @@ mod scene;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use gpt::load::FileLog;
 use gpt::output::AtomicFile;
 use serde::Serialize;
 
@@ -30,7 +31,7 @@ fn check_reports(arguments: &TestArguments, jobs: &[folder::Job]) -> Result<(), 
 /// The page that is written where nobody asked for one and something differs.
 const DEFAULT_PAGE: &str = "gpt-test.html";
 
-/// What `--json` prints. Its keys stay as they are; new ones may be added.
+/// The JSON that `--json` prints. Its keys stay as they are; new ones may be added.
 #[derive(Serialize)]
 struct Report<'a> {
     folder: String,
@@ -53,11 +54,12 @@ pub fn run(arguments: &TestArguments, typed: &Typed) -> Result<Exit, Failure> {
     interrupt::install()?;
     let settings = arguments.settings(jobs.len());
     let mut reports = Vec::with_capacity(jobs.len());
+    let read = FileLog::default();
     for job in &jobs {
         if !arguments.quiet {
             terminal::note(&format!("{} …", job.name));
         }
-        let report = scene::test(job, arguments, &settings);
+        let report = scene::test(job, arguments, &settings, &read);
         if report.is_interrupted() {
             return Err(Failure::Interrupted);
         }
@@ -68,8 +70,9 @@ pub fn run(arguments: &TestArguments, typed: &Typed) -> Result<Exit, Failure> {
     }
     let exit = exit(&reports);
     let seconds = started.elapsed().as_secs_f64();
-    let html = write_page(arguments, &reports, exit)?;
+    let html = write_page(arguments, &reports, exit, &read)?;
     if let Some(path) = &arguments.junit {
+        outputs::check_unread([path.as_path()], &read)?;
         AtomicFile::write(path, junit::xml(&arguments.folder, &reports, seconds).as_bytes())?;
     }
     if arguments.json {
@@ -93,12 +96,18 @@ pub fn run(arguments: &TestArguments, typed: &Typed) -> Result<Exit, Failure> {
 }
 
 /// The page, where it is asked for or something differs; where it is.
-fn write_page(arguments: &TestArguments, reports: &[SceneReport], exit: Exit) -> Result<Option<PathBuf>, Failure> {
+fn write_page(
+    arguments: &TestArguments,
+    reports: &[SceneReport],
+    exit: Exit,
+    read: &FileLog,
+) -> Result<Option<PathBuf>, Failure> {
     let path = match (&arguments.html, exit) {
         (Some(path), _) => path.clone(),
         (None, Exit::Difference) => PathBuf::from(DEFAULT_PAGE),
         (None, _) => return Ok(None),
     };
+    outputs::check_unread([path.as_path()], read)?;
     AtomicFile::write(&path, page::page(arguments, reports).as_bytes())?;
     Ok(Some(path))
 }

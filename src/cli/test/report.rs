@@ -1,4 +1,4 @@
-//! What is said of a scene.
+//! The report on a scene.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::cli::exit::Exit;
 
-/// What became of a scene.
+/// The outcome of a scene's test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
@@ -27,7 +27,7 @@ pub struct SceneReport {
     pub file: String,
     pub golden: String,
     pub verdict: Verdict,
-    /// What is to be known beside the verdict, in sentences.
+    /// Sentences beside the verdict.
     pub message: Option<String>,
     pub device: Option<String>,
     pub width: u32,
@@ -42,12 +42,12 @@ pub struct SceneReport {
     pub share_of_tiles: Option<f64>,
     /// Tiles and wholes that the first look rejected.
     pub suspects: usize,
-    /// Those that differ.
+    /// The tiles that differ.
     pub differences: Vec<Difference>,
     pub flip: Option<f64>,
     /// ꟻLIP that the noise of a render makes by itself.
     pub flip_of_noise: Option<f64>,
-    /// Whether the scene is another than the one that the golden picture shows.
+    /// True if the scene is not the one that the golden picture shows.
     pub scene_changed: Option<bool>,
     pub seconds: f64,
     /// Commands that repeat the test, and that make the picture.
@@ -58,7 +58,7 @@ pub struct SceneReport {
     pub pictures: Option<TestPictures>,
 }
 
-/// What the page shows.
+/// The pictures on the page.
 #[derive(Debug)]
 pub struct TestPictures {
     pub golden: Image,
@@ -92,7 +92,7 @@ impl From<&Finding> for Difference {
 }
 
 impl Difference {
-    /// As people read it.
+    /// The difference in a sentence for people.
     pub fn sentence(&self) -> String {
         let Region { x, y, width, height } = self.region;
         let change =
@@ -118,7 +118,7 @@ impl SceneReport {
         self.failure
     }
 
-    /// Whether a person asked for the end.
+    /// True if a person asked for the end.
     pub fn is_interrupted(&self) -> bool {
         self.failure == Some(Exit::Interrupted)
     }
@@ -128,7 +128,7 @@ impl SceneReport {
         self.differences.iter().min_by(|a, b| a.p_value.total_cmp(&b.p_value))
     }
 
-    /// What is said at the terminal: a line, and one more where something differs.
+    /// The text at the terminal: a line, and one more where something differs.
     pub fn line(&self) -> String {
         let mut line = match self.verdict {
             Verdict::Agrees => format!("{}: agrees", self.scene),

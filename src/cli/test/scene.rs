@@ -8,7 +8,7 @@ use gpt::RenderOptions;
 use gpt::Scene;
 use gpt::compare::flip::{PIXELS_PER_DEGREE, flip};
 use gpt::device::{ChosenDevice, ChosenRenderer};
-use gpt::load::SceneSource;
+use gpt::load::{FileLog, LoadOptions, SceneSource};
 use gpt::output::{OutputError, PICTURE_ENDINGS, PictureFormat};
 use gpt::picture_test::bless::{Blessed, bless};
 use gpt::picture_test::candidate::judge_candidate;
@@ -22,16 +22,16 @@ use super::folder::Job;
 use super::report::{Difference, SceneReport, TestPictures, Verdict};
 use crate::cli::bench::OnlyStops;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::terminal;
 use crate::cli::test_arguments::TestArguments;
 use crate::cli::traversal::TraversalArguments;
 use crate::cli::typed::CommandLine;
+use crate::cli::{outputs, terminal};
 
 /// Tests a scene, or makes its golden picture. What goes wrong is part of the report.
-pub fn test(job: &Job, arguments: &TestArguments, settings: &TestSettings) -> SceneReport {
+pub fn test(job: &Job, arguments: &TestArguments, settings: &TestSettings, read: &FileLog) -> SceneReport {
     let started = Instant::now();
     let mut report = blank(job);
-    if let Err(failure) = test_into(job, arguments, settings, &mut report) {
+    if let Err(failure) = test_into(job, (arguments, settings), read, &mut report) {
         report.verdict = Verdict::Failed;
         report.failure = Some(Exit::from(&failure));
         report.message = Some(failure.to_string());
@@ -67,16 +67,22 @@ fn blank(job: &Job) -> SceneReport {
     }
 }
 
-fn test_into(job: &Job, arguments: &TestArguments, settings: &TestSettings, report: &mut SceneReport) -> Result<(), Failure> {
+fn test_into(
+    job: &Job,
+    (arguments, settings): (&TestArguments, &TestSettings),
+    read: &FileLog,
+    report: &mut SceneReport,
+) -> Result<(), Failure> {
     if let Some(folder) = &arguments.candidate_dir {
         return test_candidate(job, folder, (arguments, settings), report);
     }
     let source = SceneSource::parse(Some(job.file.as_os_str()))?;
-    let scene = source.load(&arguments.files.options(false))?;
+    let scene = source.load(&LoadOptions { log: read.clone(), ..arguments.files.options(false) })?;
     for warning in &scene.warnings {
         terminal::warn(&format!("{}: {warning}", job.name));
     }
     [report.width, report.height] = scene.film.size;
+    outputs::check_unread([job.golden.as_path()], read)?;
     let is_missing = !job.golden.exists();
     if is_missing && !arguments.bless && !arguments.update {
         let command = job.bless_command();
@@ -143,7 +149,7 @@ fn make_golden(job: &Job, settings: &TestSettings, maker: &mut Maker, report: &m
     Ok(())
 }
 
-/// What a person should know of a test that cannot find what it is to find.
+/// The reasons why a test finds less than it should.
 fn shortcomings(found: f64, settings: &TestSettings, non_finite_samples: u64) -> Option<String> {
     let mut sentences = Vec::new();
     if found > settings.change {
@@ -199,7 +205,7 @@ fn render_and_judge(
     Ok(differs)
 }
 
-/// Whether ꟻLIP is above the limit that was given; then the report says so.
+/// True if ꟻLIP is above the limit that was given; the report then says so.
 fn looks_different(arguments: &TestArguments, report: &mut SceneReport) -> bool {
     let (Some(limit), Some(flip)) = (arguments.flip, report.flip) else { return false };
     if flip > limit {

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-/// Where a render is shown while it goes on.
+/// The places where a render is shown while it goes on.
 #[derive(Debug, Default, Args)]
 pub struct ViewArguments {
     /// Show the picture while it converges, on a page in the browser: a server on this machine alone, at an address with a secret in it. The files

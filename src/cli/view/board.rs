@@ -1,4 +1,5 @@
-//! What is there to be seen: written by the render, read by whoever shows it. Neither waits for the other longer than it takes to copy a pointer.
+//! The picture so far, written by the render and read by whoever shows it. Neither waits for the other longer
+//! than it takes to copy a pointer.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -31,7 +32,7 @@ pub struct Picture {
     pub second_moment: Vec<f32>,
 }
 
-/// What the page is told beside the picture.
+/// The numbers that the page gets beside the picture.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Status {
     pub scene: String,
@@ -54,7 +55,7 @@ pub struct Status {
     pub tonemap: &'static str,
 }
 
-/// What the program is doing.
+/// The phase that the program is in.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Phase {
@@ -92,7 +93,7 @@ pub struct Board {
     changed: Condvar,
 }
 
-/// What there was at some time.
+/// The picture at some time.
 #[derive(Clone)]
 pub struct View {
     pub version: u64,
@@ -115,7 +116,7 @@ impl Board {
     }
 
     fn lock(&self) -> MutexGuard<'_, Shown> {
-        // What is shown is whole whatever panicked while holding it.
+        // The content is whole whatever panicked while holding it.
         self.shown.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -138,7 +139,7 @@ impl Board {
         });
     }
 
-    /// It is rendered on this device.
+    /// Notes the device that renders.
     pub fn on_device(&self, device: &str) {
         self.change(|shown| device.clone_into(&mut shown.status.device));
     }
@@ -169,7 +170,7 @@ impl Board {
         });
     }
 
-    /// Whether somebody looks and a picture is due.
+    /// True if somebody looks and a picture is due.
     pub fn wants_picture(&self) -> bool {
         let shown = self.lock();
         let is_watched = shown.receivers > 0 || shown.asked.is_some_and(|asked| asked.elapsed() < ABSENCE);

@@ -10,7 +10,7 @@ pub struct LayerImage {
     pub name: String,
     pub width: u32,
     pub height: u32,
-    /// Where each of the three numbers comes from; a layer of one number has it three times.
+    /// The channel of each of the three numbers; a layer of one number has it three times.
     places: [usize; 3],
     picture: Arc<LayerPicture>,
 }
@@ -42,7 +42,7 @@ impl LayerImage {
     /// Its numbers, row by row from the top.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn pixels(&self) -> std::io::Result<Vec<[f32; 3]>> {
         let mut pixels = Vec::with_capacity(self.width as usize * self.height as usize);
         for row in 0..self.height {

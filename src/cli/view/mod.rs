@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 
 use gpt::Observer;
 use gpt::film::Band;
-use gpt::load;
+use gpt::load::FileLog;
 use gpt::output::{Display, LayerChannel};
 
 pub use arguments::ViewArguments;
@@ -34,13 +34,15 @@ const LOOK_INTERVAL: Duration = Duration::from_millis(100);
 /// A program that writes a file is given so long to end it.
 const SETTLING: Duration = Duration::from_millis(40);
 
-/// Where a render is shown; nowhere, if nobody asked for it.
+/// The places where a render is shown; none, if nobody asked for one.
 pub struct Live {
     board: Option<Arc<Board>>,
     url: Option<String>,
     tev: Option<tev::Sender>,
     /// A file of the scene has changed.
     changed: Option<Arc<AtomicBool>>,
+    /// The files that were read for the scene.
+    files: FileLog,
 }
 
 impl Live {
@@ -49,7 +51,7 @@ impl Live {
     /// # Errors
     /// No server, or no tev at that address.
     pub fn start(arguments: &ViewArguments, display: &Display) -> Result<Self, Failure> {
-        let mut live = Self { board: None, url: None, tev: None, changed: None };
+        let mut live = Self { board: None, url: None, tev: None, changed: None, files: FileLog::default() };
         if !arguments.view && arguments.tev.is_none() {
             return Ok(live);
         }
@@ -67,8 +69,8 @@ impl Live {
         }
         if arguments.watch {
             let changed = Arc::new(AtomicBool::new(false));
-            let flag = changed.clone();
-            let watch = move || watch_files(&flag);
+            let (flag, files) = (changed.clone(), live.files.clone());
+            let watch = move || watch_files(&flag, &files);
             thread::Builder::new()
                 .name("watch".to_owned())
                 .spawn(watch)
@@ -79,9 +81,14 @@ impl Live {
         Ok(live)
     }
 
-    /// Whether it is shown anywhere.
+    /// True if it is shown anywhere.
     pub fn is_shown(&self) -> bool {
         self.board.is_some()
+    }
+
+    /// The list of the files that were read for the scene.
+    pub fn files(&self) -> &FileLog {
+        &self.files
     }
 
     /// A scene of this name is about to be rendered.
@@ -95,16 +102,16 @@ impl Live {
     pub fn accept_changes(&self) {
         if let Some(changed) = &self.changed {
             changed.store(false, Ordering::SeqCst);
-            load::accept_changes();
+            self.files.accept_changes();
         }
     }
 
-    /// Whether the render is to begin again.
+    /// True if the render is to begin again.
     pub fn restarts(&self) -> bool {
         self.changed.as_ref().is_some_and(|changed| changed.load(Ordering::SeqCst)) && !interrupt::requested()
     }
 
-    /// It is rendered on this device.
+    /// Notes the device that renders.
     pub fn on_device(&self, device: &str) {
         if let Some(board) = &self.board {
             board.on_device(device);
@@ -156,10 +163,10 @@ impl Live {
 }
 
 /// Looks at the files of the scene until the program ends.
-fn watch_files(changed: &AtomicBool) {
+fn watch_files(changed: &AtomicBool, files: &FileLog) {
     loop {
         thread::sleep(LOOK_INTERVAL);
-        if !changed.load(Ordering::SeqCst) && !load::changed_files().is_empty() {
+        if !changed.load(Ordering::SeqCst) && !files.changed().is_empty() {
             thread::sleep(SETTLING);
             changed.store(true, Ordering::SeqCst);
         }
@@ -178,12 +185,12 @@ pub struct Watching<'a> {
 }
 
 impl Watching<'_> {
-    /// As it is, but for the rows: of a layer, they are none of the picture.
+    /// An observer without the rows: those of a layer do not belong to the picture.
     pub fn without_rows(&self) -> Self {
         Self { shows_rows: false, asked: Mutex::new(None), ..*self }
     }
 
-    /// As it is, but for the progress: of samples that are rendered again, nobody is told.
+    /// An observer without the progress: samples that are rendered again do not count.
     pub fn in_advance(&self) -> Self {
         Self { tells_progress: false, asked: Mutex::new(None), ..*self }
     }

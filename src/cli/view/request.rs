@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
 /// Longest request that is read; browsers send about a kilobyte.
 const MOST_BYTES: u64 = 16 << 10;
 
-/// What is asked for.
+/// A request of a browser.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Request {
     pub method: String,
@@ -76,7 +76,8 @@ impl Door {
         Self { secret, hosts: ["127.0.0.1", "localhost"].map(|host| format!("{host}:{port}")) }
     }
 
-    /// What of the page is asked for: the path behind the secret. None: nothing may be answered.
+    /// The path behind the secret, of the part of the page that is asked for. None where nothing may be
+    /// answered.
     pub fn admit<'r>(&self, request: &'r Request) -> Option<&'r str> {
         let host = request.host.as_deref()?;
         if !self.hosts.iter().any(|known| known.eq_ignore_ascii_case(host)) {
@@ -87,7 +88,7 @@ impl Door {
     }
 }
 
-/// Whether they are equal, in a time that does not tell where they differ.
+/// Compares in a time that does not tell where they differ.
 fn same(a: &[u8], b: &[u8]) -> bool {
     a.len() == b.len() && a.iter().zip(b).fold(0, |differences, (a, b)| differences | (a ^ b)) == 0
 }
@@ -95,7 +96,7 @@ fn same(a: &[u8], b: &[u8]) -> bool {
 /// Sends an answer and what every answer says: it stays on this machine, in no cache and in no other page.
 ///
 /// # Errors
-/// What the connection reports.
+/// Errors of the connection.
 pub fn answer(mut connection: impl Write, status: &str, kind: &str, body: &[u8], with_body: bool) -> io::Result<()> {
     let head = format!(
         "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: close\r\nCache-Control: no-store\r\n\

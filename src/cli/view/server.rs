@@ -2,7 +2,6 @@
 //! the other.
 
 use std::collections::VecDeque;
-use std::hash::{BuildHasher, RandomState};
 use std::io;
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -51,7 +50,7 @@ impl Server {
     pub fn start(board: Arc<Board>) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let port = listener.local_addr()?.port();
-        let secret = secret();
+        let secret = secret()?;
         let url = format!("http://127.0.0.1:{port}/{secret}/");
         let door = Arc::new(Door::new(secret, port));
         thread::Builder::new().name("view".to_owned()).spawn(move || serve(&listener, &door, &board))?;
@@ -60,10 +59,13 @@ impl Server {
 }
 
 /// 128 bits that nobody can guess.
-fn secret() -> String {
-    // The standard library keys its hash tables by 128 bits of the system's randomness, and their hash tells nothing of the key.
-    let keyed = RandomState::new();
-    (0..2_u8).map(|half| format!("{:016x}", keyed.hash_one(half))).collect()
+///
+/// # Errors
+/// A system without random numbers.
+fn secret() -> io::Result<String> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes)?;
+    Ok(format!("{:032x}", u128::from_ne_bytes(bytes)))
 }
 
 fn serve(listener: &TcpListener, door: &Arc<Door>, board: &Arc<Board>) {
@@ -201,7 +203,7 @@ fn converse(connection: &TcpStream, stranger: Stranger, (door, board, open): (&D
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
-/// What the page is told.
+/// The state that the page gets.
 #[derive(Serialize)]
 struct State<'a> {
     version: u64,

@@ -145,7 +145,7 @@ fn update(name: &str, region: [u32; 4], pixels: &[[f32; 3]]) -> Vec<u8> {
         text(bytes, name);
         channels(bytes);
         region.iter().for_each(|number| bytes.extend(number.to_le_bytes()));
-        // Where each channel's first number stands, and how far apart they are.
+        // For each channel, where its first number stands and how far apart its numbers are.
         [0_u64, 1, 2, 3, 3, 3].iter().for_each(|number| bytes.extend(number.to_le_bytes()));
         pixels.iter().flatten().for_each(|value| bytes.extend(value.to_le_bytes()));
     })

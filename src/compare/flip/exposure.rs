@@ -5,12 +5,12 @@ use crate::output::Image;
 
 /// Narkowicz' fit to the ACES curve (2015), without the exposure of 0.6 that it was fitted with: (ax² + bx) / (cx² + dx + e).
 const CURVE: [f64; 5] = [2.51 * 0.36, 0.03 * 0.6, 2.43 * 0.36, 0.59 * 0.6, 0.14];
-/// What the brightest pixel becomes at the first exposure, and the median one at the last.
+/// The value of the brightest pixel at the first exposure, and of the median one at the last.
 const SHOWN: f64 = 0.85;
 /// More exposures than any picture of single-precision numbers needs; a bound where its values are absurd.
 const MOST_EXPOSURES: f64 = 64.0;
 
-/// What a display shows of a radiance: 0 to 1.
+/// The value that a display shows of a radiance: 0 to 1.
 pub(super) fn tone_mapped(radiance: f64) -> f64 {
     let [a, b, c, d, e] = CURVE;
     let x = radiance.clamp(0.0, 1e15);

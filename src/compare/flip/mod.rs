@@ -22,7 +22,7 @@ pub const PIXELS_PER_DEGREE: f64 = 3840.0 * std::f64::consts::PI / 180.0;
 const COLOUR_EXPONENT: f64 = 0.7;
 /// Exponent of the feature difference, q_f.
 const FEATURE_EXPONENT: f64 = 0.5;
-/// Where the colour differences are compressed: share p_c of the largest is brought to p_t.
+/// Colour differences are compressed from here: share p_c of the largest is brought to p_t.
 const COMPRESSED_FROM: f64 = 0.4;
 const COMPRESSED_TO: f64 = 0.95;
 
@@ -123,7 +123,8 @@ impl Eye {
         FlipMap { width: width as u32, height: height as u32, values: (0..width * height).map(value).collect() }
     }
 
-    /// What the eye makes of a picture: detail that it cannot see is gone, and colours are in a space of even differences.
+    /// The picture as the eye perceives it: without details that it cannot see, and in a space of even
+    /// differences.
     fn perceived(&self, plane: &Plane) -> Vec<Lab> {
         let filtered = self.sensitivity.filter(&plane.pixels, plane.width);
         let seen = |opponent: [f64; 3]| linear_of_opponent(opponent).map(|value| value.clamp(0.0, 1.0));

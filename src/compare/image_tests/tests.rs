@@ -11,7 +11,7 @@ fn settings(alpha: f64) -> TileSettings {
     TileSettings { tile: 16, alpha, relative_margin: 0.0 }
 }
 
-/// What a noiseless picture would show.
+/// The values of a noiseless picture.
 fn truth(pixel: usize, channel: usize) -> f64 {
     0.2 + 0.1 * channel as f64 + 0.5 * (pixel % WIDTH as usize) as f64 / f64::from(WIDTH)
 }
@@ -29,7 +29,8 @@ fn picture(pixels: &[[f32; 3]]) -> Picture<'_> {
     Picture { width: WIDTH, pixels }
 }
 
-/// The same paths on another device: rounding everywhere, and one path in a hundred that went elsewhere.
+/// Pixels of equal paths on another device: rounding everywhere, and one path in a hundred that went
+/// elsewhere.
 fn retraced(pixels: &[[f32; 3]], random: &mut SplitMix64, energy: f64) -> Vec<[f32; 3]> {
     let turned = |random: &mut SplitMix64| if random.uniform() < 0.01 { 1.0 + NOISE * random.normal() } else { 1.0 };
     let rounding = |random: &mut SplitMix64| 1.0 + 1e-6 * random.uniform();

@@ -198,7 +198,7 @@ fn a_png_holds_the_exposed_picture_in_srgb() {
     assert!(bytes.windows(4).any(|window| window == b"sRGB"));
 }
 
-/// Of the whole picture, whose last rows are brighter by far; as JPEG, with its losses, as well.
+/// The last rows of the picture are brighter by far. JPEG is tried as well, with its losses.
 #[test]
 fn automatic_exposure_sees_the_whole_picture() {
     let folder = tempfile::tempdir().unwrap();

@@ -26,7 +26,7 @@ pub struct CodedFile {
     color_space: Option<ColorSpace>,
     /// The file's colours where they are not sRGB.
     profile: Option<Box<moxcms::ColorProfile>>,
-    /// It says itself that its integers are linear.
+    /// True if the file says that its integers are linear.
     is_linear: bool,
     notes: Vec<String>,
 }
@@ -35,7 +35,7 @@ impl CodedFile {
     /// Reads the header. `color_space` stands for all that it says of its colours.
     ///
     /// # Errors
-    /// What is no picture of this format.
+    /// A file that is no picture of this format.
     pub fn open(mut file: AnyFile, format: ImageFormat, color_space: Option<ColorSpace>) -> Result<Self, String> {
         let failure = |error: std::io::Error| format!("cannot be read: {error}");
         let mut notes = Vec::new();
@@ -132,7 +132,7 @@ impl CodedFile {
     /// The pixels as they are coded, upright, and how that is.
     ///
     /// # Errors
-    /// What the decoder says.
+    /// Errors of the decoder.
     pub fn decode_codes(self) -> Result<(DynamicImage, ColorSpace), String> {
         let Self { mut decoder, orientation, color_space, profile, .. } = self;
         let (width, height) = decoder.dimensions();

@@ -36,7 +36,7 @@ pub struct ExrFile {
 /// The headers of all parts.
 ///
 /// # Errors
-/// What is no OpenEXR file, and what of that format is not read.
+/// A file that is no OpenEXR file, and parts of that format that are not read.
 pub fn headers(file: &mut AnyFile) -> Result<Vec<Header>, String> {
     let meta = MetaData::read_from_buffered(&mut *file, false).map_err(|error| format!("is not a valid EXR: {error}"))?;
     file.rewind().map_err(|error| format!("cannot be read: {error}"))?;
@@ -67,7 +67,7 @@ impl ExrFile {
     /// Reads the header.
     ///
     /// # Errors
-    /// As [`headers`], and a file without channels that are colours.
+    /// The errors of [`headers`], and a file without channels that are colours.
     pub fn open(mut file: AnyFile, color_space: Option<ColorSpace>) -> Result<Self, String> {
         let headers = headers(&mut file)?;
         let mut colours = Colours::choose(&headers)?;

@@ -83,7 +83,7 @@ pub struct RadianceHeader {
     pub resolution: Resolution,
     /// By which colours of the file become linear Rec. 709; None: they are that.
     pub matrix: Option<DMat3>,
-    /// It says from where it was seen, as Radiance's own renders do.
+    /// True if the header states a view, as Radiance's own renders do.
     pub has_view: bool,
     pub notes: Vec<String>,
 }

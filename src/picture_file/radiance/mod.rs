@@ -25,7 +25,7 @@ impl RadianceFile {
     /// Reads the header.
     ///
     /// # Errors
-    /// What is no such picture.
+    /// A file that is no such picture.
     pub fn open(mut file: AnyFile, color_space: Option<ColorSpace>) -> Result<Self, String> {
         let header = RadianceHeader::read(&mut file)?;
         Ok(Self { file, header, color_space: color_space.unwrap_or(ColorSpace::Linear) })
@@ -49,7 +49,7 @@ impl RadianceFile {
         self.header.matrix.is_none() && self.header.resolution.is_usual()
     }
 
-    /// It says from where it was seen.
+    /// True if the header states a view.
     pub fn has_view(&self) -> bool {
         self.header.has_view
     }

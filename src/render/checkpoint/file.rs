@@ -10,7 +10,6 @@ use sha2::{Digest, Sha256};
 
 use crate::input::{self, InputFile};
 use crate::output::{AtomicFile, OutputError};
-use crate::patience::Watched;
 
 const MAGIC: &[u8; 16] = b"gpt checkpoint\n\0";
 pub const DIGEST_BYTES: usize = 32;
@@ -27,13 +26,13 @@ struct Header<H> {
 /// Writes a checkpoint, whole or not at all.
 ///
 /// # Errors
-/// As [`AtomicFile::create`] and [`AtomicFile::commit`].
+/// The errors of [`AtomicFile::create`] and [`AtomicFile::commit`].
 pub fn write<H: Serialize>(path: &Path, content: &H, arrays: &[&[u8]]) -> Result<(), OutputError> {
     let failure = |source| OutputError::Write { path: path.to_owned(), source };
     let header = Header { content, arrays: arrays.iter().map(|array| array.len() as u64).collect() };
     let header = serde_json::to_vec(&header).map_err(|error| failure(error.into()))?;
     let file = AtomicFile::create(path)?;
-    let mut writer = Hashing { hash: Sha256::new(), inner: BufWriter::with_capacity(1 << 18, Watched(file.handle()?)) };
+    let mut writer = Hashing { hash: Sha256::new(), inner: BufWriter::with_capacity(1 << 18, file.handle()?) };
     let written = (|| {
         writer.write_all(MAGIC)?;
         writer.write_all(&(header.len() as u64).to_le_bytes())?;
@@ -47,7 +46,7 @@ pub fn write<H: Serialize>(path: &Path, content: &H, arrays: &[&[u8]]) -> Result
     file.commit()
 }
 
-/// What a checkpoint holds.
+/// The content of a checkpoint.
 pub struct Content<H> {
     pub header: H,
     arrays: std::vec::IntoIter<Vec<u8>>,
@@ -57,7 +56,7 @@ impl<H> Content<H> {
     /// The next array, which must have so many items.
     ///
     /// # Errors
-    /// It has another number of items.
+    /// An array with another number of items.
     pub fn array<T: Pod>(&mut self, items: usize) -> Result<Vec<T>, String> {
         let bytes = self.arrays.next().unwrap_or_default();
         if bytes.len() != items * size_of::<T>() {
@@ -67,7 +66,7 @@ impl<H> Content<H> {
     }
 }
 
-/// What is said of files that are not what was written.
+/// The message for files that are not what was written.
 pub const DAMAGED: &str = "it is damaged";
 
 /// Reads a checkpoint; None where there is none.
@@ -75,12 +74,12 @@ pub const DAMAGED: &str = "it is damaged";
 /// # Errors
 /// A file that cannot be read, or that is not what was written, in words.
 pub fn read<H: DeserializeOwned>(path: &Path) -> Result<Option<Content<H>>, String> {
-    let mut file = match input::open_own(path) {
+    let mut file = match input::open(path) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(error.to_string()),
     };
-    let length = file.length();
+    let length = input::length(&file).map_err(|error| error.to_string())?;
     let mut hash = Sha256::new();
     let mut take = |bytes: u64| {
         // No more is made room for than the file has.

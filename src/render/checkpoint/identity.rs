@@ -1,4 +1,4 @@
-//! What a render is: everything that decides its picture, by the names under which a person gave it.
+//! The identity of a render: everything that decides its picture, by the names under which a person gave it.
 
 use std::fmt;
 
@@ -15,7 +15,7 @@ const SCENE: &str = "scene";
 const BYTES: &str = "byte order";
 const WAY: &str = "way";
 
-/// What decides a picture, as names and values. Two renders with the same can go on from each other's state.
+/// The names and values that decide a picture. Two renders with equal ones can go on from each other's state.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity(Vec<(String, String)>);
 
@@ -28,7 +28,7 @@ pub struct Difference {
 }
 
 impl Identity {
-    /// Of a render of a film of so many pixels or of a region of it, in one batch or in steps.
+    /// The identity of a render of a film of so many pixels or of a region of it, in one batch or in steps.
     pub fn new(provenance: &Provenance, [width, height]: [u32; 2], crop: Option<[u32; 4]>, is_one_batch: bool) -> Self {
         let Provenance { scene_hash, settings, filter, first_sample, target_error, adaptive, .. } = provenance;
         let order = if cfg!(target_endian = "little") { "little" } else { "big" };
@@ -49,7 +49,7 @@ impl Identity {
         Self(entries)
     }
 
-    /// Of one of its layers.
+    /// The identity of the render of one of its layers.
     #[must_use]
     pub fn of_layer(mut self, layer: KernelLayer) -> Self {
         self.0.push(("--aov".to_owned(), layer.name().to_owned()));

@@ -13,12 +13,11 @@ use super::saved::{Refusal, Saved, StepsState};
 use crate::choice::Choice;
 use crate::film::{Band, KernelLayer};
 use crate::output::{OutputError, check_target};
-use crate::patience;
 use crate::renderer::state::BatchState;
 
 /// Time between two states, where nothing else is asked for.
 pub const DEFAULT_INTERVAL: Duration = Duration::from_secs(60);
-/// What follows the name of the picture.
+/// The suffix of the picture's name.
 const ENDING: &str = ".checkpoint";
 
 /// Why a render cannot go on from a checkpoint.
@@ -30,14 +29,14 @@ pub enum CheckpointError {
     Unreadable { path: PathBuf, what: String },
 }
 
-/// Where the state of the render of this picture stands.
+/// The place of the state of this picture's render.
 pub fn path_beside(picture: &Path) -> PathBuf {
     let mut name = picture.file_name().unwrap_or_default().to_os_string();
     name.push(ENDING);
     picture.with_file_name(name)
 }
 
-/// Where the state of one of its layers stands.
+/// The place of the state of one of its layers.
 pub fn path_of_layer(picture: &Path, layer: KernelLayer) -> PathBuf {
     let mut name = path_beside(picture).into_os_string();
     name.push(format!("-{}", layer.name()));
@@ -72,7 +71,7 @@ pub struct Checkpoint {
     last: Instant,
     /// Writes while the render goes on.
     writer: Option<JoinHandle<Result<(), OutputError>>>,
-    /// Of states that could not be written: the render goes on without them.
+    /// Errors of states that could not be written: the render goes on without them.
     failures: Vec<OutputError>,
     rows: Option<RowsFile>,
     saved: Option<Saved>,
@@ -81,7 +80,7 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Of a render that began at `started`, on a device of this name.
+    /// A checkpoint for a render that began at `started`, on a device of this name.
     ///
     /// # Errors
     /// A place where no file can be.
@@ -109,7 +108,7 @@ impl Checkpoint {
         })
     }
 
-    /// Where it stands.
+    /// The place of the state.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -148,7 +147,7 @@ impl Checkpoint {
         self.seconds_before
     }
 
-    /// What was found, once; and hands over the rows that are finished.
+    /// Hands over the rows that are finished, and the state that was found, once.
     ///
     /// # Errors
     /// Rows that cannot be read, and what `on_band` says.
@@ -159,7 +158,7 @@ impl Checkpoint {
         Ok(self.saved.take())
     }
 
-    /// Whether it is time for the next state, and the last one is written.
+    /// True if it is time for the next state, and the last one is written.
     pub(in crate::render) fn is_due(&self) -> bool {
         self.last.elapsed() >= self.interval && self.writer.as_ref().is_none_or(JoinHandle::is_finished)
     }
@@ -203,16 +202,15 @@ impl Checkpoint {
 
     /// Waits for the state that is being written.
     fn wait(&mut self) {
-        match self.writer.take().map(patience::join) {
+        match self.writer.take().map(JoinHandle::join) {
             None => {}
-            Some(Err(source)) => self.failures.push(OutputError::Write { path: self.path.clone(), source }),
-            Some(Ok(Ok(Ok(())))) => {
+            Some(Ok(Ok(()))) => {
                 self.is_there = true;
-                // What went wrong before is made good.
+                // This state makes up for the ones that failed before.
                 self.failures.clear();
             }
-            Some(Ok(Ok(Err(failure)))) => self.failures.push(failure),
-            Some(Ok(Err(_))) => {
+            Some(Ok(Err(failure))) => self.failures.push(failure),
+            Some(Err(_)) => {
                 self.failures.push(OutputError::Encode { path: self.path.clone(), what: "its writer panicked".to_owned() });
             }
         }

@@ -9,7 +9,6 @@ use sha2::{Digest, Sha256};
 
 use super::file::{DAMAGED, DIGEST_BYTES};
 use crate::film::Band;
-use crate::patience;
 
 /// Between the checkpoint's name and what tells its files of rows apart.
 const INFIX: &str = "-rows-";
@@ -28,7 +27,7 @@ impl RowsFile {
         let name = format!("{}{INFIX}{}-{}", name_of(checkpoint), std::process::id(), now.as_nanos());
         let mut options = OpenOptions::new();
         let file = options.read(true).write(true).create_new(true).open(checkpoint.with_file_name(&name))?;
-        // Where a file system has no locks, nobody removes the file.
+        // A file system without locks refuses, and then nobody removes the file.
         let _ = file.try_lock();
         Ok(Self { name, file, bytes: 0 })
     }
@@ -66,16 +65,14 @@ impl RowsFile {
         bytes.extend_from_slice(bytemuck::cast_slice(&band.second_moment));
         let digest = Sha256::digest(&bytes);
         bytes.extend_from_slice(&digest);
-        let (mut file, length) = (self.file.try_clone()?, bytes.len() as u64);
-        patience::within(move || file.write_all(&bytes))?;
-        self.bytes += length;
+        self.file.write_all(&bytes)?;
+        self.bytes += bytes.len() as u64;
         Ok(())
     }
 
     /// Its name, and its length once all of it is sure to stay.
     pub fn flushed(&self) -> io::Result<(String, u64)> {
-        let file = self.file.try_clone()?;
-        patience::within(move || file.sync_data())?;
+        self.file.sync_data()?;
         Ok((self.name.clone(), self.bytes))
     }
 
@@ -134,7 +131,7 @@ pub fn remove_all(checkpoint: &Path) {
     let ours = entries.flatten().filter(|entry| entry.file_name().to_str().is_some_and(|name| is_of(checkpoint, name)));
     for path in ours.map(|entry| entry.path()).collect::<Vec<PathBuf>>() {
         if File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
-            // What cannot be removed stays.
+            // A file that cannot be removed stays.
             let _ = fs::remove_file(path);
         }
     }

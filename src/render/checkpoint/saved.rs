@@ -1,4 +1,4 @@
-//! What of a render is kept: the batch under way, and what batches before it brought.
+//! The state of a render that is saved: the batch under way, and the sum of the batches before it.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,11 +16,11 @@ use crate::renderer::state::{BatchState, FilmState, MOST_SAMPLES_PER_SWEEP, Tall
 pub struct Saved {
     /// Seconds that went into it.
     pub seconds: f64,
-    /// What was rendering.
+    /// The device that rendered.
     pub device: String,
     /// The batch under way.
     pub batch: BatchState,
-    /// Of a render in steps, what the earlier batches brought.
+    /// The sum of the earlier batches, for a render in steps.
     pub steps: Option<StepsState>,
     /// The file with the rows that are finished, and how many bytes of it count.
     pub rows: Option<(String, u64)>,
@@ -36,7 +36,7 @@ pub struct StepsState {
     pub counts: Vec<u32>,
     /// Per row: the samples per pixel that are spent.
     pub row_samples: Vec<f64>,
-    /// Of each stream: the sums of the pixels that are looked at.
+    /// For each stream, the sums of the pixels that are looked at.
     pub streams: Vec<Vec<[f64; 4]>>,
     /// Times that the error was looked at, and the last estimate.
     pub looks: u32,
@@ -46,10 +46,10 @@ pub struct StepsState {
     pub levels: Vec<u8>,
 }
 
-/// Where in its steps a render is.
+/// The position of a render in its steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Place {
-    /// Of samples that follow the noise, the stage and the interval of the doublings.
+    /// The stage and the interval of the doublings, where samples follow the noise.
     pub stage: usize,
     pub interval: usize,
     /// The step's first request, how many it has, and the stream under way.
@@ -94,9 +94,9 @@ struct StepsHeader {
 
 /// Why a checkpoint is none for this render.
 pub enum Refusal {
-    /// What is wrong with the file.
+    /// The file is damaged, in words.
     Unreadable(String),
-    /// What it is of.
+    /// The file belongs to another render, named here.
     Other(String),
 }
 
@@ -113,7 +113,7 @@ impl Saved {
     /// Writes it, whole or not at all.
     ///
     /// # Errors
-    /// As [`file::write`].
+    /// The errors of [`file::write`].
     pub fn write(&self, path: &Path, identity: &Identity) -> Result<(), OutputError> {
         let BatchState { rows, done, sweep, reached, film, tally } = &self.batch;
         let batch = BatchHeader {

@@ -30,7 +30,7 @@ const ROWS: u32 = 16;
 /// Numbers of a pixel that a [`LayerPicture`] has.
 const IN_PICTURE: usize = 3;
 
-/// What one kind of matte is of.
+/// A kind of matte: by object, by material or by name.
 struct Kind {
     name: &'static str,
     /// Identifier and coverage of each rank, in pairs.
@@ -56,7 +56,7 @@ const KINDS: [Kind; 2] = [
     },
 ];
 
-/// What the header of a file with mattes says: their names, how these are hashed, and what they are hashed to.
+/// The header entries of a file with mattes: their names, how these are hashed, and the hashes.
 pub fn notes(scene: &Scene) -> Vec<(String, String)> {
     KINDS.iter().flat_map(|kind| (kind.names)(scene).notes(kind.name)).collect()
 }

@@ -1,6 +1,6 @@
 //! From what each sample of a pixel met to what covers it, the largest share first.
 
-/// What is kept of a pixel.
+/// Identifiers that are kept of a pixel.
 pub(super) const RANKS: usize = 6;
 
 /// Identifier and share of each rank, in pairs; 0 where there is nothing. `shares` are what stopped samples, of so many, and what part of a
@@ -13,7 +13,7 @@ pub(super) fn ranked(shares: impl Iterator<Item = (u32, f64)>, samples: u32) -> 
             None => sums.push((id, share)),
         }
     }
-    // Of equal shares, the smaller identifier, so that files do not depend on the order of samples.
+    // Equal shares go by the smaller identifier, so that files do not depend on the order of samples.
     sums.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     let mut pairs = [0.0; 2 * RANKS];
     for (pair, (id, sum)) in pairs.chunks_exact_mut(2).zip(sums.into_iter().filter(|(_, sum)| *sum > 0.0)) {

@@ -1,15 +1,16 @@
-//! Where samples go: half of them everywhere alike, the other half where the noise is.
+//! The allocation of samples: half of them go everywhere alike, the other half where the noise is.
 //!
 //! A pixel's samples are the first of one sequence, and their number is `floor`, or that doubled up to [`MOST_DOUBLINGS`] times. It
 //! follows the noise that the first `floor` samples of the pixels *around* it show, never its own: a pixel whose first samples happened to be dark is
 //! not left with them, and the plain mean of all its samples is unbiased. To be strict, pixels are coloured like a chessboard, and numbers of one
 //! colour depend on samples of the other alone, by the scale that all of a colour share as well.
 //!
-//! What a pixel's noise is, the two halves of its first samples tell by their difference: how much the mean of so many points of a sequence
-//! varies, not how much a single sample does.
+//! The two halves of a pixel's first samples show its noise by their difference: how much the mean of so many
+//! points of a sequence varies, not how much a single sample does.
 //!
-//! Where few samples hold most of the light, pixels that have not met one yet look calm: hence the half that goes everywhere, by which no
-//! pixel's expected error is more than about twice what it would have been (docs/notes/2026-11-22-adaptive-sampling.md).
+//! If few samples hold most of the light, pixels that have not met one yet look calm. Hence the half that
+//! goes everywhere: no pixel's expected error is more than about twice what it would have been
+//! (docs/notes/2026-11-22-adaptive-sampling.md).
 
 use rayon::prelude::*;
 
@@ -60,7 +61,7 @@ pub fn allocate(size: [u32; 2], halves: [&[f32]; 2], budget: f64, least: &[u8]) 
     (0..wanted.len()).map(doublings).collect()
 }
 
-/// What a pixel's halves say of the squared error of their mean, relative as `gpt compare` has it.
+/// An estimate, from a pixel's halves, of the squared error of their mean, relative as in `gpt compare`.
 fn squared_relative_error([a, b]: [f64; 2]) -> f64 {
     let (mean, error) = (0.5 * (a + b), 0.5 * (a - b));
     error * error / (mean * mean + RELATIVE_EPSILON)
@@ -127,7 +128,7 @@ mod tests {
         assert!((1.9..=2.0).contains(&average(&levels)), "{}", average(&levels));
     }
 
-    /// What is behind a pixel is not taken back, and others pay for it.
+    /// Samples that a pixel has already are not taken back, and others pay for them.
     #[test]
     fn spent_samples_stay_spent() {
         let mut least = vec![0; 64 * 32];

@@ -1,4 +1,4 @@
-//! What each doubling of the pixels' samples brought.
+//! The picture at each doubling of the pixels' samples.
 
 use super::allocation::MOST_DOUBLINGS;
 use crate::film::Band;
@@ -17,14 +17,14 @@ impl Doublings {
         Self { width: width as usize, means: vec![vec![0.0; pixels]; usize::from(MOST_DOUBLINGS) + 2] }
     }
 
-    /// As [`Doublings::new`], with the means of an earlier render; None where they are of another size.
+    /// Makes [`Doublings::new`] with the means of an earlier render; None where they are of another size.
     pub fn with_means([width, height]: [u32; 2], means: Vec<Vec<f32>>) -> Option<Self> {
         let pixels = width as usize * height as usize;
         let fits = means.len() == usize::from(MOST_DOUBLINGS) + 2 && means.iter().all(|means| means.len() == pixels);
         fits.then_some(Self { width: width as usize, means })
     }
 
-    /// Of each interval, the mean luminances.
+    /// The mean luminances of each interval.
     pub fn means(&self) -> &[Vec<f32>] {
         &self.means
     }

@@ -18,7 +18,7 @@ use crate::sampling::hash::mix;
 /// Pixels that are looked at, at most; of larger pictures an even sample of them.
 const MOST_PIXELS: u64 = 1 << 18;
 
-/// What the streams say of the pixels that are looked at.
+/// An estimate of the error by the streams, from the pixels that are looked at.
 pub struct ErrorEstimator {
     width: u32,
     total_pixels: u64,
@@ -47,7 +47,7 @@ impl ErrorEstimator {
         fits.then_some(self)
     }
 
-    /// Of each stream: the sums of the pixels that are looked at.
+    /// For each stream, the sums of the pixels that are looked at.
     pub fn sums(&self) -> &[Vec<[f64; 4]>] {
         &self.sums
     }

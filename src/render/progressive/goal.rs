@@ -1,4 +1,4 @@
-//! What a render is for, and what became of it.
+//! The goal of a render, and its outcome.
 
 use std::ops::Range;
 use std::time::Instant;
@@ -9,7 +9,7 @@ use crate::renderer::RenderReport;
 /// Independent renderings whose mean is the picture, where its error must be known.
 pub const STREAMS: u32 = 8;
 
-/// What a render may spend, and what it shall reach.
+/// The limits of a render, and the error that it shall reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Goal {
     /// Absolute indices of the samples that a pixel gets at most (on average, where they follow the noise).
@@ -38,7 +38,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// As statistics name it.
+    /// The name in statistics.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Samples => "samples",
@@ -49,10 +49,10 @@ impl Stop {
     }
 }
 
-/// What became of a render.
+/// The outcome of a render.
 #[derive(Debug, Clone)]
 pub struct Outcome {
-    /// What the renderer did.
+    /// The report of the renderer.
     pub report: RenderReport,
     /// Why it ended.
     pub stop: Stop,

@@ -1,4 +1,4 @@
-//! Where bands and states of batches go while a render is kept in a checkpoint.
+//! Sinks for bands and states of batches while a render is saved in a checkpoint.
 
 use std::io;
 
@@ -13,7 +13,7 @@ use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 
-/// Of a render that is one batch: bands go to whoever wants the picture.
+/// The sink of a render that is one batch: bands go to whoever wants the picture.
 pub struct WholeBatch<'a> {
     pub checkpoint: &'a mut Checkpoint,
     pub on_band: &'a mut dyn FnMut(Band) -> io::Result<()>,
@@ -45,7 +45,7 @@ impl Sink for WholeBatch<'_> {
     }
 }
 
-/// Of one batch of a render in steps: bands are added to what earlier batches brought.
+/// The sink of one batch of a render in steps: bands are added to the sum of earlier batches.
 pub struct StepBatch<'a> {
     pub checkpoint: Option<&'a mut Checkpoint>,
     pub watch: Watch<'a>,
@@ -55,7 +55,7 @@ pub struct StepBatch<'a> {
     pub doublings: Option<&'a mut Doublings>,
     pub levels: &'a [u8],
     pub place: Place,
-    /// What earlier batches counted.
+    /// The counts of earlier batches.
     pub tally: Tally,
     pub selection: Option<&'a [bool]>,
     /// The share of the pixels that take part, and of a pixel's mean that the batch brings.
@@ -86,7 +86,7 @@ impl Sink for StepBatch<'_> {
     fn state(&mut self, state: BatchState) -> io::Result<()> {
         if self.watch.observer.wants_rows() {
             self.watch.show(&state, Some(self.picture));
-            // Where the render breaks off, a state comes unasked, and is kept.
+            // A render that breaks off brings a state unasked, which is kept.
             if self.checkpoint.as_ref().is_none_or(|checkpoint| !checkpoint.is_due()) && !self.watch.observer.stop_requested() {
                 return Ok(());
             }

@@ -1,7 +1,8 @@
 //! Rendering until something other than a number of samples is reached: a time, an error, and with more samples where the noise is.
 //!
-//! Where only time may end a render early, the renderer itself goes over the film until then ([`Batch::deadline`]). Else a picture is rendered in **steps**, the first of which covers the whole film, so that it is whole whenever it ends. What steps bring is
-//! averaged on the host.
+//! If only time may end a render early, the renderer itself goes over the film until then
+//! ([`Batch::deadline`]). Else a picture is rendered in **steps**, the first of which covers the whole film,
+//! so that it is whole whenever it ends. The results of the steps are averaged on the host.
 //!
 //! - With an error to reach, every step renders several **streams** of samples, each with random numbers of its own. Streams are
 //!   independent whatever the sampler, so what they differ by tells the error of their mean ([`error`]).
@@ -36,7 +37,7 @@ use watching::{Watch, Watched};
 /// pixel that were spent on average.
 ///
 /// # Errors
-/// What the renderer reports.
+/// Errors of the renderer.
 pub fn render(
     renderer: &mut dyn Renderer,
     size: [u32; 2],
@@ -48,16 +49,16 @@ pub fn render(
     render_kept(renderer, size, seed, goal, observer, None, on_band)
 }
 
-/// Whether a render for this goal is one batch: nothing but time may end it before its last sample, and the device's film has all of the
-/// picture where time may.
+/// True if a render for this goal is one batch: nothing but time may end it before its last sample, and the
+/// device's film has all of the picture where time may.
 pub fn is_one_batch(goal: &Goal, holds_whole_film: bool) -> bool {
     goal.target_error.is_none() && !goal.adaptive && (goal.deadline.is_none() || holds_whole_film)
 }
 
-/// As [`render`], from where the checkpoint was, with states in it.
+/// Renders as [`render`] does, from the place of the checkpoint, which gets further states.
 ///
 /// # Errors
-/// As [`render`].
+/// The errors of [`render`].
 pub fn render_kept(
     renderer: &mut dyn Renderer,
     size: [u32; 2],
@@ -97,15 +98,15 @@ pub fn render_kept(
         work.go_on_from(saved).ok_or_else(misfit)?;
     }
     let stop = work.run();
-    // What was rendered before a device was lost is not.
+    // Samples rendered before a device was lost are kept.
     if matches!(stop, Ok(_) | Err(RenderError::DeviceLost(_))) {
         work.deliver(on_band)?;
     }
     Ok(work.outcome(stop?, start.elapsed()))
 }
 
-/// Where nothing but time may end a render before its last sample, the device's film has it all: the picture is, bit for bit, the one that no
-/// limit would have given, as far as it goes.
+/// Only time may end this render before its last sample, and the device's film has it all: the picture is,
+/// bit for bit, the one that no limit would have given, as far as it goes.
 fn render_sweeps(
     renderer: &mut dyn Renderer,
     watch: Watch<'_>,

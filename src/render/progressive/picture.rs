@@ -43,7 +43,7 @@ impl Picture {
         self.samples[first_row..first_row + band.rows as usize].iter_mut().for_each(|sum| *sum += spent);
     }
 
-    /// As [`Picture::new`], with sums of earlier batches; None where they are of another size.
+    /// Makes [`Picture::new`] with sums of earlier batches; None where they are of another size.
     pub fn with_sums([width, height]: [u32; 2], radiance: Vec<[f32; 3]>, counts: Vec<u32>, samples: Vec<f64>) -> Option<Self> {
         let (width, height) = (width as usize, height as usize);
         let fits = radiance.len() == width * height && counts.len() == radiance.len() && samples.len() == height;
@@ -78,7 +78,7 @@ impl Picture {
     /// Hands over the rows that have samples, from the top.
     ///
     /// # Errors
-    /// What the receiver says.
+    /// Errors of the receiver.
     pub fn deliver(&self, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> io::Result<()> {
         let with_counts = self.counts.iter().any(|count| *count != self.counts[0]);
         let mut row = 0;

@@ -33,7 +33,7 @@ pub fn stages(samples: u32, streams: u32) -> Vec<Stage> {
     if samples < FEWEST_ADAPTIVE_SAMPLES {
         return Vec::new();
     }
-    // Of every pixel's samples, a half, in the last stage.
+    // Half of every pixel's samples, in the last stage.
     let half = samples / FEWEST_ADAPTIVE_SAMPLES;
     let mut doublings = 0;
     while (2 * (half >> (doublings + 1))).saturating_mul(streams) >= FEWEST_SAMPLES {

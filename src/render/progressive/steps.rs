@@ -27,7 +27,7 @@ struct Part<'a> {
     samples: Range<u32>,
     /// Which pixels take part; None: all.
     selection: Option<&'a [bool]>,
-    /// What share of the pixels that is.
+    /// The share of the pixels that take part.
     share: f64,
 }
 
@@ -45,15 +45,15 @@ pub struct Work<'a> {
     error: Option<ErrorEstimate>,
     report: RenderReport,
     checkpoint: Option<&'a mut Checkpoint>,
-    /// Where in its steps it is.
+    /// The position in its steps.
     place: Place,
     /// How often each pixel's share was doubled before the stage under way.
     levels: Vec<u8>,
-    /// What an earlier render left, until this one is where that was.
+    /// The state of an earlier render, until this one is at the same position.
     resume: Option<Resume>,
 }
 
-/// Where a render goes on.
+/// The position from which a render goes on.
 struct Resume {
     place: Place,
     doublings: Option<Doublings>,
@@ -92,12 +92,12 @@ impl<'a> Work<'a> {
     /// Hands over the picture as far as it is.
     ///
     /// # Errors
-    /// What the receiver says.
+    /// Errors of the receiver.
     pub fn deliver(&self, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> io::Result<()> {
         self.picture.deliver(on_band)
     }
 
-    /// What became of it.
+    /// The outcome of the render.
     pub fn outcome(self, stop: Stop, took: Duration) -> Outcome {
         let report = RenderReport { render_seconds: took.as_secs_f64(), interrupted: stop == Stop::Interrupted, ..self.report };
         Outcome { report, stop, error: self.error }
@@ -130,7 +130,7 @@ impl<'a> Work<'a> {
     /// Renders until the goal is reached or cannot be.
     ///
     /// # Errors
-    /// What the renderer reports.
+    /// Errors of the renderer.
     pub fn run(&mut self) -> Result<Stop, RenderError> {
         let per_stream = (self.goal.samples.len() as u32 / self.streams).max(1);
         let stages = if self.goal.adaptive { stages(per_stream, self.streams) } else { Vec::new() };
@@ -145,8 +145,8 @@ impl<'a> Work<'a> {
         Ok(ended.unwrap_or(Stop::Samples))
     }
 
-    /// What the first samples of all pixels show decides which pixels get more, stage by stage. None: all are done and the goal is not
-    /// reached.
+    /// Gives more samples to the pixels that need them by what the first samples of all pixels show, stage by
+    /// stage. None: all are done and the goal is not reached.
     fn run_stages(&mut self, stages: &[Stage]) -> Result<Option<Stop>, RenderError> {
         let pixels = self.size[0] as usize * self.size[1] as usize;
         let (mut at, kept) = match &mut self.resume {
@@ -265,7 +265,7 @@ impl<'a> Work<'a> {
         resume: Option<&BatchState>,
     ) -> Result<Option<Stop>, RenderError> {
         let first = self.goal.samples.start;
-        // Of what this part brings to a pixel's means.
+        // The share of this part in a pixel's means.
         let part_of_mean = samples.len() as f32 / (part.samples.len() as u32 * self.streams) as f32;
         let request = RenderRequest { rows: 0..self.size[1], samples: first + samples.start..first + samples.end };
         // The first is the scene's own, so that a render that only time ends is the beginning of the one that nothing ends.

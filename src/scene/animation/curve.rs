@@ -35,12 +35,13 @@ impl<T> Default for Curve<T> {
     }
 }
 
-/// What can be interpolated.
+/// A quantity that can be interpolated.
 pub trait Quantity: Copy {
     /// Between two keys, `share` of the way.
     fn between(a: Self, b: Self, share: f64) -> Self;
 
-    /// The same with a speed that does not jump at the keys. `before` and `after` are the keys around the two.
+    /// The value between two keys, with a speed that does not jump at them. `before` and `after` are the keys
+    /// around the two.
     fn smoothly_between(before: Option<Key<Self>>, a: Key<Self>, b: Key<Self>, after: Option<Key<Self>>, share: f64) -> Self;
 }
 
@@ -139,7 +140,7 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// As a rotation.
+    /// The rotation that the four numbers stand for.
     pub fn rotation(self) -> DQuat {
         DQuat::from_axis_angle(self.axis, self.degrees.to_radians())
     }

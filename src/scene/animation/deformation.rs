@@ -7,8 +7,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 use super::curve::{Curve, Moment};
 use crate::scene::shape::Mesh;
 
-/// What bends a mesh: morph targets first, then joints (linear blend skinning, as glTF 2.0 has it in sections 3.7.2.2 and 3.7.3.3). Both are
-/// lists in the order of the mesh's vertices.
+/// The deformation of a mesh: morph targets first, then joints (linear blend skinning, as glTF 2.0 has it in sections 3.7.2.2 and 3.7.3.3). Both are lists in the order of the mesh's vertices.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Deformation {
     /// Before anything bends it.
@@ -25,11 +24,11 @@ pub struct MorphTarget {
     pub normals: Vec<Vec3>,
     /// How much it counts without a frame.
     pub rest: f64,
-    /// The same at frames; without keys it stays as it is.
+    /// Its weight at frames; without keys it stays as it is.
     pub weight: Curve<f64>,
 }
 
-/// What takes vertices along.
+/// A joint that takes vertices along.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// The node that takes it along, among those of the animation.
@@ -41,9 +40,10 @@ pub struct Joint {
 /// Which joints take each vertex along, and how much each counts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Influences {
-    /// Of all vertices, one after the other: joint and weight. Weights of a vertex need not add up to 1.
+    /// The joints and weights of all vertices, one vertex after the other. Weights of a vertex need not add
+    /// up to 1.
     pub pairs: Vec<(u32, f32)>,
-    /// Where each vertex' pairs end; empty where no joint takes anything along.
+    /// The end of each vertex' pairs; empty where no joint takes anything along.
     pub ends: Vec<u32>,
 }
 
@@ -77,7 +77,7 @@ impl Deformation {
     /// Every list is as long as the mesh needs it, every joint is there and every number is finite.
     ///
     /// # Errors
-    /// What is wrong, in a sentence.
+    /// The mistake, in a sentence.
     pub fn check(&self) -> Result<(), String> {
         let count = self.base.positions.len();
         for (index, target) in self.targets.iter().enumerate() {
@@ -145,7 +145,7 @@ impl Deformation {
             mesh.positions.iter_mut().zip(&target.positions).for_each(|(value, step)| *value += step * weight);
             mesh.normals.iter_mut().zip(&target.normals).for_each(|(value, step)| *value += step * weight);
         }
-        // Of what flattens, normals know nothing.
+        // A joint that flattens has no inverse for normals.
         let inverses: Vec<Option<DMat3>> =
             joints.iter().map(|map| map.matrix3.determinant().is_normal().then(|| map.matrix3.inverse().transpose())).collect();
         for (vertex, pairs) in self.influences.of_vertices().enumerate() {

@@ -1,8 +1,6 @@
 //! Scenes that are elsewhere at another frame.
 //!
-//! What of a scene has keys stands beside it: the scene itself is what it shows without a frame. `Scene::at_frame` gives another scene, which is
-//! all that renderers ever see. Frames are counted in one time: frame f is f / [`Animation::frames_per_second`] seconds after the start, and
-//! shutter time 1 of frame f is shutter time 0 of frame f + 1.
+//! Keyframes stand beside the scene, and the scene alone is the rest pose. `Scene::at_frame` gives another scene, which is all that renderers ever see. Frames are counted in one time: frame f is f / [`Animation::frames_per_second`] seconds after the start, and shutter time 1 of frame f is shutter time 0 of frame f + 1.
 
 mod curve;
 mod deformation;
@@ -25,7 +23,7 @@ use super::shape::Mesh;
 /// Frames in a second where nothing else is said.
 pub const FRAMES_PER_SECOND: f64 = 24.0;
 
-/// What of a scene has keys.
+/// The keyframes of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Animation {
     pub frames_per_second: f64,
@@ -149,7 +147,7 @@ impl Animation {
 }
 
 impl LightTrack {
-    /// What it says at a frame, and how its node moves the light.
+    /// The state of its keys at a frame, moved by its node.
     pub fn taken_along(&self, animation: &Animation, frame: f64) -> LightAt {
         LightAt { along: animation.taken_along(self.node, frame.into()), ..self.at(frame) }
     }

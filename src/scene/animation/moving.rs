@@ -10,11 +10,10 @@ const STRETCHES: u32 = 8;
 /// Parts of a map that are less than this apart from doing nothing do nothing.
 const NEGLIGIBLE: f64 = 1e-12;
 
-/// What is turned inside out between two times has no motion that leads from one to the other.
+/// A shape that is turned inside out between two times has no motion that leads from one to the other.
 pub const INSIDE_OUT: &str = "is turned inside out while the shutter is open";
 
-/// Where something stands as the shutter opens, and its motion from there on: it is exact as the shutter opens and closes, and even in between.
-/// None: it rests.
+/// The placement as the shutter opens, and the motion from there on: it is exact as the shutter opens and closes, and even in between. None for a thing at rest.
 ///
 /// # Errors
 /// `INSIDE_OUT`.

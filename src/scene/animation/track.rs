@@ -1,4 +1,4 @@
-//! What has keys: transforms in parts, nodes, shapes and the camera.
+//! Tracks of keys: transforms in parts, nodes, shapes and the camera.
 
 use glam::{DAffine3, DQuat, DVec3};
 
@@ -37,7 +37,7 @@ impl TransformTrack {
 pub struct Node {
     pub name: String,
     pub parent: Option<usize>,
-    /// Where it stands in its parent without a frame.
+    /// The placement in its parent without a frame.
     pub rest: DAffine3,
     pub track: Option<TransformTrack>,
 }
@@ -51,11 +51,11 @@ pub struct ShapeTrack {
     pub track: Option<TransformTrack>,
     /// The node that takes it along.
     pub node: Option<usize>,
-    /// Where it stands without a frame.
+    /// The transform without a frame.
     pub rest: Transform,
 }
 
-/// What of the camera has keys. They take the place of what the camera is without a frame.
+/// The camera's keys. They take the place of the camera's values without a frame.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CameraTrack {
     pub position: Curve<DVec3>,
@@ -68,24 +68,24 @@ pub struct CameraTrack {
     pub node: Option<usize>,
 }
 
-/// What of a light has keys. They take the place of what the light is without a frame.
+/// A light's keys. They take the place of the light's values without a frame.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LightTrack {
     /// Index among the scene's lights.
     pub light: usize,
     pub position: Curve<DVec3>,
-    /// Of length 1 at the keys, and made so in between.
+    /// The direction, of length 1 at the keys and made so in between.
     pub direction: Curve<DVec3>,
     /// Intensity, irradiance or radiance.
     pub strength: Curve<DVec3>,
-    /// Of an environment, in degrees.
+    /// The rotation of an environment, in degrees.
     pub rotation: Curve<f64>,
     /// The node that takes it along.
     pub node: Option<usize>,
 }
 
 impl LightTrack {
-    /// What its keys say at a frame, before its node moves it.
+    /// The state of its keys at a frame, before its node moves it.
     pub fn at(&self, frame: f64) -> LightAt {
         LightAt {
             position: self.position.at(frame),

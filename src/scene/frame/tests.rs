@@ -126,7 +126,7 @@ fn lit() -> Scene {
     load_toml_str(text, "lit", Path::new("")).expect("the scene is valid")
 }
 
-/// Where lights are and how bright, halfway between two keys and at the last.
+/// Lights are looked at halfway between two keys and at the last: where they are, and how bright.
 #[test]
 fn lights_go_through_their_keys_and_are_taken_along() {
     let scene = lit();

@@ -1,4 +1,4 @@
-//! What every light gives the layers that it goes through.
+//! The contract of every light with the layers that it goes through.
 
 use std::sync::Arc;
 
@@ -9,9 +9,9 @@ use crate::scene::image::ImageData;
 use crate::scene::light_at::LightAt;
 use crate::scene::texture::TextureId;
 
-/// What a scene needs to know of a light, whatever its kind.
+/// The questions of a scene to a light, whatever its kind.
 pub trait SceneLight {
-    /// What is wrong with it, in words.
+    /// Checks its numbers; the error is the mistake, in words.
     fn check(&self) -> Check;
 
     /// Moves it by an offset, with all of the scene.
@@ -25,7 +25,7 @@ pub trait SceneLight {
         None
     }
 
-    /// The same to look at.
+    /// Its picture, if it has one, to read.
     fn image(&self) -> Option<&ImageData> {
         None
     }
@@ -58,7 +58,8 @@ pub trait DeltaLight {
     fn parameters(&self) -> LightParameters;
 }
 
-/// What samplers and shaders know of a delta light, in the slots that the device's tables have for it.
+/// The parameters of a delta light for samplers and shaders, in the slots that the device's tables have for
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LightParameters {
     pub strength: LightStrength,
@@ -69,7 +70,7 @@ pub struct LightParameters {
     /// The direction that it shines in, and the angles from there, in radians, up to which it is full and at which it ends. None: it
     /// shines in all directions.
     pub cone: Option<(DVec3, [f64; 2])>,
-    /// What else its shader reads.
+    /// Further vectors that its shader reads.
     pub vectors: [DVec3; 2],
     /// One number more.
     pub number: f64,
@@ -78,7 +79,8 @@ pub struct LightParameters {
 }
 
 impl LightParameters {
-    /// Of the only form of its kind, shining in all directions, with nothing else to read.
+    /// The parameters of a light that is the only form of its kind, shines in all directions and has nothing
+    /// else to read.
     pub fn new(strength: LightStrength, color: DVec3, position: DVec3) -> Self {
         Self { strength, color, position, cone: None, vectors: [DVec3::ZERO; 2], number: 0.0, form: 0 }
     }

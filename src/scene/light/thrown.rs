@@ -20,7 +20,7 @@ pub struct SpotLight {
     pub angle_degrees: f64,
     pub falloff_degrees: f64,
     pub curve: FalloffCurve,
-    /// What multiplies the intensity: a picture that fills the square around the cone.
+    /// The picture that multiplies the intensity and fills the square around the cone.
     pub picture: Option<ThrownPicture>,
 }
 
@@ -40,7 +40,7 @@ pub enum FalloffCurve {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThrownPicture {
     pub texture: TextureId,
-    /// Where the texture's v grows to, as far as it is across the light's direction; u grows to the right, as seen from the light.
+    /// The direction in which the texture's v grows, projected across the light's direction; u grows to the right, as seen from the light.
     pub up: DVec3,
 }
 
@@ -139,10 +139,10 @@ impl DeltaLight for SpotLight {
 pub struct Projector {
     pub position: DVec3,
     pub direction: DVec3,
-    /// Where the picture's upper edge is, as far as that is across the direction.
+    /// The direction of the picture's upper edge, projected across the light's direction.
     pub up: DVec3,
     pub irradiance: DVec3,
-    /// Of the whole picture.
+    /// The angle of the whole picture.
     pub vertical_fov_degrees: f64,
     /// Width of the picture over its height.
     pub aspect: f64,

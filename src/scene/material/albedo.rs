@@ -17,7 +17,7 @@ const DIRECTIONS: [usize; 2] = [40, 20];
 pub const FACET_KNEE: f64 = 2.0;
 /// Smoother fibres are as rough as this: f32 does not resolve their powers, and the fit of their shadowing was made for rougher ones.
 pub const SMALLEST_SHEEN_ROUGHNESS: f64 = 0.1;
-/// What is added to the roughness of fibres to find the cosine about which most changes.
+/// Added to the roughness of fibres, it gives the cosine about which most changes.
 pub const SHEEN_KNEE: f64 = 0.1;
 
 /// Shares of light at even steps of roughness, and of a place that cosines have: the smoother a surface is, the nearer to a right angle the
@@ -39,7 +39,7 @@ struct Layout {
     least_roughness: f64,
 }
 
-/// What narrow facets reflect depends on the cosine over their width alone, so on the place alone: any of them serve for the first row.
+/// The albedo of narrow facets depends on the cosine over their width alone, so on the place alone: any of them serve for the first row.
 const OF_FACETS: Layout =
     Layout { knee: |roughness| FACET_KNEE * roughness * roughness, first_place: 1e-3, least_roughness: 1e-2 };
 /// Nearer to a right angle the fit of the shadowing gives ever more. One row lies below the smallest roughness: it is looked up as well.
@@ -56,7 +56,8 @@ static HEIGHT_CORRELATED: LazyLock<AlbedoTable> =
 static SHEEN: LazyLock<AlbedoTable> = LazyLock::new(|| AlbedoTable::new(OF_SHEEN, sheen_albedo));
 
 impl Layout {
-    /// Of a cosine c, √(c·(1 + k)/(c + k)) with the knee k. The root spreads what lies near a right angle.
+    /// The place of a cosine c is √(c·(1 + k)/(c + k)) with the knee k. The root spreads what lies near a
+    /// right angle.
     fn place(&self, cosine: f64, roughness: f64) -> f64 {
         let knee = (self.knee)(roughness);
         (cosine * (1.0 + knee) / (cosine + knee).max(1e-6)).clamp(0.0, 1.0).sqrt()
@@ -70,7 +71,7 @@ impl Layout {
 }
 
 impl AlbedoTable {
-    /// Of GGX microfacets that reflect everything, by the root of their width.
+    /// The table of GGX microfacets that reflect everything, by the root of their width.
     pub fn of_facets(masking: Masking) -> &'static Self {
         match masking {
             Masking::Separable => &SEPARABLE,
@@ -78,7 +79,7 @@ impl AlbedoTable {
         }
     }
 
-    /// Of white fibres, by the root of the width of their distribution.
+    /// The table of white fibres, by the root of the width of their distribution.
     pub fn of_sheen() -> &'static Self {
         &SHEEN
     }

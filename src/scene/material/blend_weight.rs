@@ -1,4 +1,4 @@
-//! What decides how much of each material a blend shows.
+//! The weight of each material in a blend.
 
 use crate::scene::image::Channel;
 use crate::scene::texture::TextureId;

@@ -43,7 +43,7 @@ macro_rules! material_table {
 }
 pub(crate) use material_table;
 
-/// What a surface is made of, with its parameters.
+/// The material of a surface, with its parameters.
 #[derive(Debug, Clone)]
 pub enum MaterialKind {
     /// Lambert: f = ρ/π.
@@ -87,14 +87,15 @@ pub struct LobeParameters {
     pub lobe: LobeKind,
     /// Which of its forms the lobe has, where it has several: bits.
     pub form: u32,
-    /// What is reflected; a diffuse share of it; or the real part of a complex index of refraction.
+    /// The reflected colour; a diffuse share of it; or the real part of a complex index of refraction.
     pub color0: ColorInput,
-    /// What is transmitted; a specular share of what is reflected; or the imaginary part of a complex index of refraction.
+    /// The transmitted colour; a specular share of the reflected one; or the imaginary part of a complex
+    /// index of refraction.
     pub color1: Option<ColorInput>,
     /// The width of a distribution of microfacets, or the exponent of a power of a cosine.
     pub roughness: Option<ColorInput>,
     pub ior: Option<f64>,
-    /// What further parameters the lobe has, or none where they are what the lobe takes them for by itself:
+    /// The further parameters of the lobe; none where the lobe's own defaults hold:
     ///
     /// - of a conductor, and of rough glass, thin or not, the width across the tangent, and a factor of what is reflected;
     /// - of the principled lobe, metallic, specular, transmission, clearcoat, its roughness, anisotropy, and 1 plus the cosine and the sine of
@@ -120,7 +121,7 @@ pub const NONLINEAR: u32 = 8;
 pub const SQUARED_ACROSS: u32 = 16;
 /// Microfacets have two widths, one of them across the tangent.
 pub const ANISOTROPIC: u32 = 32;
-/// What lets light through is a wall without thickness.
+/// The flag of a wall without thickness that lets light through.
 pub const THIN_WALL: u32 = 64;
 /// The lobe lets light through.
 pub const TRANSMITS: u32 = 128;
@@ -128,7 +129,7 @@ pub const TRANSMITS: u32 = 128;
 pub const COMPENSATED: u32 = 256;
 /// Fibres stand on the surface.
 pub const SHEEN: u32 = 512;
-/// What the surface encloses takes light.
+/// The flag of a surface whose inside takes light.
 pub const ATTENUATES: u32 = 1024;
 /// The coat has a normal map of its own.
 pub const COAT_NORMAL_MAP: u32 = 2048;
@@ -153,12 +154,12 @@ pub const FORMS: u32 = COMPLEX_FRESNEL
 const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
 
 impl LobeParameters {
-    /// Of a lobe with one colour.
+    /// A lobe with one colour.
     fn new(lobe: LobeKind, color0: ColorInput) -> Self {
         Self { lobe, form: 0, color0, color1: None, roughness: None, ior: None, further: Vec::new(), looked_up: 0 }
     }
 
-    /// The same with microfacets, and what is reflected multiplied by `factor`.
+    /// The lobe with microfacets, and with the reflected colour multiplied by `factor`.
     fn with_facets(mut self, facets: &Microfacets, factor: ColorInput) -> Self {
         self.roughness = Some(facets.alpha);
         self.form |= if facets.distribution == MicrofacetDistribution::Beckmann { BECKMANN } else { 0 }
@@ -254,13 +255,13 @@ impl MaterialKind {
     }
 }
 
-/// Where the extinction of what it encloses stands among the further parameters of the principled lobe.
+/// The place of the extinction inside the surface among the further parameters of the principled lobe.
 pub const EXTINCTION_PARAMETER: usize = 7;
 
-/// Where the texels of its coat's normals stand; their scale is the next.
+/// The place of the texels of its coat's normals; their scale is the next.
 pub const COAT_NORMAL_PARAMETER: usize = EXTINCTION_PARAMETER + 3;
 
-/// Where the texels of its anisotropy's direction stand.
+/// The place of the texels of its anisotropy's direction.
 pub const DIRECTION_PARAMETER: usize = COAT_NORMAL_PARAMETER + 2;
 
 /// How many further parameters the principled lobe has.
@@ -353,7 +354,7 @@ impl LobeKind {
     }
 }
 
-/// What the table of materials says of lobes and of names.
+/// The columns of the table of materials about lobes and names.
 macro_rules! kinds {
     ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident)* })*) => {
         /// The ways to scatter light that materials are made of.
@@ -370,7 +371,7 @@ macro_rules! kinds {
                 match self { $($(Self::$lobe => stringify!($file),)*)* }
             }
 
-            /// What shaders name its number, and the switch that compiles it.
+            /// The name of its number in shaders, and of the switch that compiles it.
             pub fn switch(self) -> &'static str {
                 match self { $($(Self::$lobe => stringify!($number),)*)* }
             }
@@ -385,7 +386,7 @@ macro_rules! kinds {
             /// All types, as scene files write them.
             pub const TYPE_NAMES: &'static [&'static str] = &[$(stringify!($type_name)),*];
 
-            /// As scene files write the type.
+            /// The type's name in scene files.
             pub fn type_name(&self) -> &'static str {
                 match self { $(Self::$material { .. } => stringify!($type_name)),* }
             }

@@ -1,4 +1,4 @@
-//! What surfaces are made of.
+//! The materials of surfaces.
 
 mod albedo;
 mod blend_weight;

@@ -1,4 +1,4 @@
-//! What the surface of plastic lets through to the diffuse base below it.
+//! The light that the surface of plastic lets through to the diffuse base below it.
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -24,16 +24,16 @@ pub struct Principled {
     pub metallic: ColorInput,
     /// Its square is the width of the microfacets.
     pub roughness: ColorInput,
-    /// Of the dielectric, inside over outside.
+    /// The index of refraction of the dielectric, inside over outside.
     pub ior: f64,
     /// Factor of what the dielectric reflects, and its colour along the normal.
     pub specular: ColorInput,
     pub specular_color: ColorInput,
     /// Share of the dielectric's base that lets light through instead of scattering it back.
     pub transmission: ColorInput,
-    /// What lets light through is a wall without thickness, which does not bend it.
+    /// True for a wall without thickness, which lets light through without bending it.
     pub thin: bool,
-    /// What takes light behind the surface; None: nothing does.
+    /// The attenuation behind the surface; None where nothing takes light.
     pub attenuation: Option<Attenuation>,
     pub clearcoat: ColorInput,
     pub clearcoat_roughness: ColorInput,
@@ -47,7 +47,7 @@ pub struct Principled {
     /// Red and green times 2 minus 1 are that direction: along the one in which texture coordinate u grows, and across it towards that of v. Its
     /// colour space is linear. None: along u.
     pub anisotropy_direction: Option<TextureId>,
-    /// Of that direction, from the one in which texture coordinate u grows towards that of v.
+    /// The angle of that direction, from the one in which texture coordinate u grows towards that of v.
     pub anisotropy_rotation_degrees: f64,
     pub masking: Masking,
     /// Light that microfacets send to each other is not lost.

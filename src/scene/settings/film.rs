@@ -43,7 +43,7 @@ impl Default for Filter {
     }
 }
 
-/// As people read it: the scene file's name and the radius.
+/// The form for people: the scene file's name and the radius.
 impl fmt::Display for Filter {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "{}, radius {}", self.kind.name(), self.radius)
@@ -77,7 +77,7 @@ impl FilterKind {
 }
 
 impl FilmSettings {
-    /// Whether there can be such a picture.
+    /// Checks that there can be such a picture.
     ///
     /// # Errors
     /// The first value out of its range.

@@ -3,11 +3,11 @@
 use crate::choice::{Choice, Named, choices};
 
 choices! {
-    /// Where random numbers come from.
+    /// The source of random numbers.
     pub enum SamplerKind {
         /// Every number on its own.
         Independent = "independent",
-        /// As many strata as samples per pixel, one sample in each.
+        /// One sample in each of as many strata as there are samples per pixel.
         Stratified = "stratified",
         /// Recursive quadrants: strata that get finer as samples come.
         Quadrant = "quadrant",
@@ -39,7 +39,7 @@ choices! {
     pub enum HemisphereSampling {
         /// In proportion to the cosine with the normal.
         Cosine = "cosine",
-        /// The same density in every direction.
+        /// One density in every direction.
         Uniform = "uniform",
     }
 
@@ -57,7 +57,7 @@ choices! {
 
     /// How next event estimation chooses among lights.
     pub enum LightChoice {
-        /// Of many lights, by cells if lists of lights hold most of the light, and by a tree if not; of few, by power or by cells, whichever a trial run of some thousand paths finds better.
+        /// Many lights: by cells if lists of lights hold most of the light, else by a tree. Few lights: by power or by cells, whichever a trial run of some thousand paths finds better.
         Auto = "auto",
         /// In constant time, by power wherever the light goes, and evenly over groups in three of ten choices.
         Power = "power",
@@ -67,13 +67,13 @@ choices! {
         Cells = "cells",
     }
 
-    /// Whether paths are guided to where light was found to come from.
+    /// When paths are guided to where light was found to come from.
     pub enum Guiding {
         /// Never.
         Off = "off",
         /// On surfaces that scatter diffusely.
         On = "on",
-        /// As with "on" where a trial run finds, after it has learned, that this has clearly less error × cost; else never.
+        /// The way of "on" if a trial run finds, after it has learned, that this has clearly less error × cost; else never.
         Auto = "auto",
     }
 
@@ -85,7 +85,7 @@ choices! {
         Hidden = "hidden",
     }
 
-    /// What happens where a ray meets a blend of materials.
+    /// How a path continues at a blend of materials.
     pub enum BlendMode {
         /// Every lobe of a blend is evaluated, one is sampled.
         Mixture = "mixture",

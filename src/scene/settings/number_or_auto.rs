@@ -8,7 +8,7 @@ use crate::choice::Named;
 /// A number that a setting states, or that a trial run of some thousand paths finds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NumberOrAuto {
-    /// Left to the renderer: a trial run finds the best, or the setting has a fixed default.
+    /// The number that a trial run finds best, or a fixed default.
     Auto,
     /// So many.
     Number(u32),

@@ -28,7 +28,7 @@ const MOST_GUIDING_PATHS: u32 = 1 << 20;
 
 /// First depth at which Russian roulette may end a path where the scene states none.
 const DEFAULT_ROULETTE_DEPTH: u32 = 5;
-/// The same of guided paths: what they are expected to bring is known.
+/// The depth of roulette for guided paths, whose expected contribution is known.
 const GUIDED_ROULETTE_DEPTH: u32 = 2;
 
 /// Largest radiance that samples may be clamped to: it is an f32 in shaders.
@@ -54,7 +54,7 @@ settings! {
             header: "gpt:maxDepth",
             compared: false,
         }
-        /// Where random numbers come from.
+        /// Source of random numbers.
         sampler: SamplerKind = SamplerKind::Sobol => { // the one that measures best: docs/strategies.md
             values: Names(SamplerKind::NAMES),
             flag: "--sampler",
@@ -126,7 +126,7 @@ settings! {
             header: "gpt:lightSamplesDepth",
             compared: true,
         }
-        /// Whether directions are also drawn by a guide, which up to a million paths learn before the first sample.
+        /// Draw directions also by a guide, which up to a million paths learn before the first sample.
         guiding: Guiding = Guiding::Off => {
             values: Names(Guiding::NAMES),
             flag: "--guiding",
@@ -150,7 +150,7 @@ settings! {
             header: "gpt:emitters",
             compared: false,
         }
-        /// What happens where a ray meets a blend of materials.
+        /// How a path continues at a blend of materials.
         blend: BlendMode = BlendMode::Mixture => {
             values: Names(BlendMode::NAMES),
             flag: "--blend",
@@ -211,7 +211,7 @@ impl Setting {
         SETTINGS.iter().find(|setting| setting.name == name)
     }
 
-    /// What it is, in one sentence or more.
+    /// The explanation, in one sentence or more.
     pub fn help(&self) -> &'static str {
         self.doc.trim_start()
     }
@@ -224,7 +224,7 @@ impl Setting {
     /// The setting with this number.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn number(&'static self, number: i64) -> Result<Assignment, String> {
         self.values.number(number).map(|value| Assignment { setting: self, value })
     }
@@ -232,7 +232,7 @@ impl Setting {
     /// The setting with this number, which need not be whole.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn real(&'static self, number: f64) -> Result<Assignment, String> {
         self.values.real(number).map(|value| Assignment { setting: self, value })
     }
@@ -240,7 +240,7 @@ impl Setting {
     /// The setting with the value that is written so, a number or a name.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn text(&'static self, text: &str) -> Result<Assignment, String> {
         self.values.text(text).map(|value| Assignment { setting: self, value })
     }
@@ -248,7 +248,7 @@ impl Setting {
     /// The setting with the value of this name.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn name(&'static self, name: &str) -> Result<Assignment, String> {
         self.values.name(name).map(|value| Assignment { setting: self, value })
     }
@@ -275,7 +275,8 @@ impl Assignment {
     }
 }
 
-/// What tells it from another value of the same setting: a name, or a number with what it counts.
+/// The words that distinguish it from another value of the same setting: a name, or a number with what it
+/// counts.
 impl fmt::Display for Assignment {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.value {
@@ -295,7 +296,7 @@ impl RenderSettings {
         }
     }
 
-    /// As [`RenderSettings::light_samples_at`] says of every depth: the number of light samples, at least 1, and of first surfaces that take so many.
+    /// The number of light samples, at least 1, and of first surfaces that take so many, as in [`RenderSettings::light_samples_at`].
     #[doc(hidden)]
     pub fn several_light_samples(&self) -> [u32; 2] {
         [self.light_samples_at(1).clamp(1, MOST_LIGHT_SAMPLES), self.light_samples_depth.clamp(1, MOST_LIGHT_SAMPLES_DEPTH)]
@@ -328,7 +329,7 @@ impl RenderSettings {
         SETTINGS.iter().map(move |setting| (setting, (setting.get)(&counted)))
     }
 
-    /// Whether a scene can be rendered this way.
+    /// Checks that a scene can be rendered this way.
     ///
     /// # Errors
     /// The first value out of its range, and combinations that cannot be.

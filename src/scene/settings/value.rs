@@ -17,7 +17,7 @@ pub enum Value {
     Name(&'static str),
 }
 
-/// As people write it, without quotes.
+/// The form in which people write it, without quotes.
 impl fmt::Display for Value {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -54,7 +54,7 @@ impl Values {
     /// The number as a value.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn number(self, number: i64) -> Result<Value, String> {
         match (self, u32::try_from(number)) {
             (Self::Whole(least, most) | Self::WholeOr(least, most, _), Ok(number)) if (least..=most).contains(&number) => {
@@ -74,7 +74,7 @@ impl Values {
     /// The number, which need not be whole, as a value.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn real(self, number: f64) -> Result<Value, String> {
         match self {
             Self::Real(least, most) if (least..=most).contains(&number) => Ok(Value::Real(number)),
@@ -85,7 +85,7 @@ impl Values {
     /// The value of this name.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn name(self, name: &str) -> Result<Value, String> {
         match self {
             Self::Names(names) => names.iter().find(|known| known.name == name).map(|known| Value::Name(known.name)),
@@ -98,7 +98,7 @@ impl Values {
     /// The value that is written so, a number or a name.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn text(self, text: &str) -> Result<Value, String> {
         let wrong = || self.to_string();
         match self {
@@ -109,10 +109,10 @@ impl Values {
         }
     }
 
-    /// Whether the value is one of these.
+    /// Checks that the value is one of these.
     ///
     /// # Errors
-    /// What would be right, to follow "expected".
+    /// The values that are allowed, to follow "expected".
     pub fn check(self, value: Value) -> Result<(), String> {
         match value {
             Value::Number(number) => self.number(number.into()),
@@ -123,7 +123,7 @@ impl Values {
     }
 }
 
-/// What is expected, in words. The largest number is left out where nobody comes near it.
+/// The expected values, in words. The largest number is left out where nobody comes near it.
 impl fmt::Display for Values {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -150,11 +150,11 @@ pub struct BadSetting {
     /// The scene file's key.
     pub setting: &'static str,
     pub message: String,
-    /// What would be right, where the message does not say.
+    /// Advice, where the message has none.
     pub help: Option<String>,
 }
 
-/// What a setting's field may be: it becomes a [`Value`] and is made from one.
+/// A type of a setting's field: it becomes a [`Value`] and is made from one.
 pub trait Field: Copy {
     fn to_value(self) -> Value;
     /// None for a value of the other kind, and for a name that does not exist.

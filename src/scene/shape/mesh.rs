@@ -17,7 +17,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// One per position, or empty.
     pub uvs: Vec<Vec2>,
-    /// Those of textures that lie by the second ones: one per position, or empty, where `uvs` serve them too.
+    /// The coordinates of textures that use the second ones: one per position, or empty, where `uvs` serve
+    /// them too.
     pub second_uvs: Vec<Vec2>,
     pub faces: Vec<[u32; 3]>,
     /// One material per face, or empty: then the shape's material is that of every face.
@@ -186,7 +187,7 @@ mod tests {
         // The corner of three right angles looks along the diagonal, outward.
         mesh.compute_smooth_normals();
         assert!(mesh.normals[0].abs_diff_eq(Vec3::splat(-1.0).normalize(), 1e-6));
-        // The same with vertices of their own for every face.
+        // The second mesh has vertices of its own for every face.
         let joined = mesh.normals[1];
         mesh.compute_flat_normals();
         mesh.compute_smooth_normals();

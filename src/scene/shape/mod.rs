@@ -1,4 +1,4 @@
-//! Where surfaces are, and the table of shapes.
+//! Surfaces, and the table of shapes.
 
 mod model;
 
@@ -46,7 +46,7 @@ macro_rules! geometries {
         }
 
         impl Geometry {
-            /// What scene files call its kind.
+            /// The name of its kind in scene files.
             pub fn kind_name(&self) -> &'static str {
                 match self {
                     $(Self::$variant(_) => $name,)*
@@ -72,7 +72,7 @@ pub use rectangle::Rectangle;
 pub use sphere::Sphere;
 
 impl Geometry {
-    /// What is wrong with it, in words.
+    /// Checks its numbers; the error is the mistake, in words.
     pub(super) fn check(&self) -> Check {
         self.model().check()
     }
@@ -86,17 +86,17 @@ impl Geometry {
         self.model().extent(map)
     }
 
-    /// It stays what it is only if it is scaled by the same factor along every axis.
+    /// True if it keeps its form only under a scaling by one factor along every axis.
     pub fn is_round(&self) -> bool {
         self.model().is_round()
     }
 
-    /// What is wrong where it is round and scaled otherwise, in words.
+    /// The mistake of a round shape that is scaled otherwise, in words.
     pub fn stays_round(&self) -> String {
         format!("a {} can only be scaled by the same factor along every axis", self.kind_name())
     }
 
-    /// It has neither bounds nor an area: it cannot move, and no light or portal has this shape.
+    /// True if it has neither bounds nor an area: it cannot move, and no light or portal has this shape.
     pub fn is_infinite(&self) -> bool {
         self.model().is_infinite()
     }
@@ -170,7 +170,7 @@ impl Shape {
         mesh.faces.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect()
     }
 
-    /// Where the shape's own (0, 0, 0) is in the world at time 0: what motions turn and scale about.
+    /// The place of the shape's own (0, 0, 0) in the world at time 0, about which motions turn and scale.
     pub fn origin(&self) -> DVec3 {
         self.transform.to_affine().translation
     }
@@ -180,10 +180,11 @@ impl Shape {
         self.motion.as_ref().map(|motion| motion.at(time, self.origin()))
     }
 
-    /// Whether it has a place: its transform leaves a volume within the range of numbers, and what is round stays round.
+    /// Checks that it has a place: its transform leaves a volume within the range of numbers, and round
+    /// shapes stay round.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// The mistake, in words.
     pub fn check_place(&self) -> Result<(), String> {
         let map = self.transform.to_affine();
         let determinant = map.matrix3.determinant();
@@ -196,10 +197,10 @@ impl Shape {
         within_range(self.farthest_from(DVec3::ZERO))
     }
 
-    /// Whether renderers can follow the shape's motion while the shutter is open.
+    /// Checks that renderers can follow the shape's motion while the shutter is open.
     ///
     /// # Errors
-    /// What is wrong, in words, and in which step of the motion if it is a single one.
+    /// The mistake, in words, and its step of the motion if it is in a single one.
     pub fn check_motion(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
         let Some(motion) = &self.motion else { return Ok(()) };
         if self.geometry.is_infinite() {

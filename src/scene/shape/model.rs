@@ -1,4 +1,4 @@
-//! What a scene needs to know of a shape's geometry, whatever its kind.
+//! The questions of a scene to a shape's geometry, whatever its kind.
 
 use glam::{DAffine3, DVec3};
 
@@ -8,14 +8,14 @@ use crate::scene::material::MaterialId;
 /// The length by which single precision limits a shape, in units of the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Extent {
-    /// Of a shape of parallelograms: their longest edge.
+    /// The longest edge, of a shape of parallelograms.
     LongestEdge(f64),
-    /// Of all others: how far they reach from side to side.
+    /// The extent from side to side, of all other shapes.
     Across(f64),
 }
 
 pub trait ShapeModel {
-    /// What is wrong with it, in words.
+    /// Checks its numbers; the error is the mistake, in words.
     fn check(&self) -> Check;
 
     /// Why it has no texture coordinates, and what to use instead; None: it has them.
@@ -29,12 +29,12 @@ pub trait ShapeModel {
     /// Its extent once `map` has placed it; None: it is infinite, or there is nothing of it.
     fn extent(&self, map: &DAffine3) -> Option<Extent>;
 
-    /// It stays what it is only if it is scaled by the same factor along every axis.
+    /// True if it keeps its form only under a scaling by one factor along every axis.
     fn is_round(&self) -> bool {
         false
     }
 
-    /// It has neither bounds nor an area: it cannot move, and no light or portal has this shape.
+    /// True if it has neither bounds nor an area: it cannot move, and no light or portal has this shape.
     fn is_infinite(&self) -> bool {
         false
     }
@@ -50,7 +50,7 @@ pub trait ShapeModel {
     }
 }
 
-/// What is wrong where numbers of a shape are not what they may be.
+/// The mistake where numbers of a shape are impossible.
 pub fn possible(possible: bool) -> Check {
     if possible { Ok(()) } else { Err("its numbers must be finite, radii positive, and normals of length 1".into()) }
 }

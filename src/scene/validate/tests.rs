@@ -133,7 +133,7 @@ fn what_can_be_rendered_passes() {
     assert_eq!(Scene::default().validate(), Ok(()));
 }
 
-/// The same scene with one thing wrong, and the words that name the part and the mistake.
+/// Each scene has one thing wrong; the words name the part and the mistake.
 #[test]
 fn each_mistake_is_named_with_its_part() {
     type Change = fn(&mut Scene);
@@ -363,7 +363,7 @@ fn it_takes_time_in_proportion_to_the_scene() {
         scene.shapes.retain(|shape| shape.label == "disk");
         let first = scene.materials.len();
         for id in first..first + length {
-            // Of one material of its own and the blend before.
+            // Each blend has one material of its own and the blend before.
             let before = if id == first { 0 } else { id - 1 };
             let weight = BlendWeight::Constant { value: 0.5 };
             scene.materials.push(material("chain", MaterialKind::Blend { materials: [2, before], weight }));

@@ -4,6 +4,7 @@
 //! that re-exports a file has an arrow to it, so a file that imports from its own folder's `mod.rs` closes a circle; a file imports from the
 //! file where the item stands. `mod child;` alone is no arrow, nor is what only tests import.
 
+mod comments;
 mod imports;
 mod source;
 
@@ -38,7 +39,8 @@ fn read_modules(folder: &Path, path: &[String], modules: &mut Modules) {
     }
 }
 
-/// What comes of a module's text once comments, strings and tests are gone; modules that are only compiled for tests are left out.
+/// The rest of each module's text without comments, strings and tests; modules that are only compiled for
+/// tests are left out.
 fn product_modules(modules: &Modules) -> Modules {
     let mut product = Modules::new();
     let mut of_tests = BTreeSet::new();

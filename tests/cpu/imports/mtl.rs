@@ -39,7 +39,7 @@ fn sheen_is_read() {
     let with = principled("Pr 0.3\nPs 0.75");
     assert_eq!((with.sheen_color, with.sheen_roughness), (ColorInput::grey(0.75), ColorInput::grey(0.5)));
     assert!(principled("Pr 0.3\nPs 0.75\nmap_Ps h.png").sheen_color.is_texture());
-    // What Blender writes where there is none.
+    // Blender writes this where there is no sheen.
     let without = principled("Pr 0.3\nPs 0");
     assert_eq!((without.sheen_color, without.sheen_roughness), (ColorInput::grey(0.0), ColorInput::grey(0.0)));
 }
@@ -78,7 +78,7 @@ fn masks_are_blends_with_what_is_behind() {
     // Beside a map, 0 says nothing.
     assert_eq!(channel(weight("d 0\nmap_d h.png")), (Channel::R, 1.0));
     assert!(matches!(weight("d 0.5"), BlendWeight::Constant { value: 0.5 }));
-    // What cannot be read hides nothing.
+    // A map that cannot be read hides nothing.
     let (kind, warnings) = material("map_d absent.png");
     assert!(matches!(kind, MaterialKind::Diffuse { .. }) && warnings.iter().any(|said| said.contains("map_d")), "{warnings:?}");
 }

@@ -44,7 +44,8 @@ fn references_nest_as_deep_as_elements_may() {
     assert!(said.contains("more than 100 deep within each other, references followed"), "{said}");
 }
 
-/// What is refused at its end names its line; to count lines from the beginning for each element takes minutes here.
+/// An error at the end of a long file names its line; to count lines from the beginning for each element
+/// would take minutes here.
 #[test]
 fn places_in_long_files_are_found_at_once() {
     let shape = "<shape type=\"sphere\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.5\"/></bsdf></shape>\n";

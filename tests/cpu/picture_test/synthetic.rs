@@ -101,7 +101,7 @@ fn test(renderer: &mut Synthetic, golden: &Golden, seed: u32, settings: &TestSet
     judge(renderer, golden, seed, settings, &Silent).expect("it renders")
 }
 
-/// Whether a count may come from so many trials of this probability: within four standard deviations.
+/// True if a count may come from so many trials of this probability: within four standard deviations.
 fn is_likely(count: u32, trials: u32, probability: f64) -> bool {
     let expected = probability * f64::from(trials);
     (f64::from(count) - expected).abs() <= 4.0 * (expected * (1.0 - probability)).sqrt()
@@ -183,7 +183,7 @@ fn nothing_undefined_passes_and_rounding_does() {
     assert!(!agrees(&broken));
 }
 
-/// What a golden picture holds comes back from its file, and a picture without variances is refused with what to do.
+/// A golden picture comes back from its file, and a picture without variances is refused with advice.
 #[test]
 fn golden_pictures_come_back_from_their_files() {
     let folder = tempfile::tempdir().expect("a folder");

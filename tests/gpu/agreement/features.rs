@@ -266,7 +266,8 @@ fn second_texture_coordinates_agree() {
     second_coordinates_agree(sheets, StageMode::Wavefront);
 }
 
-/// Of a scene whose textures lie by the second of two sets of coordinates, by the only set, and by the first. In the short form by one way to run.
+/// The textures of the scene lie by the second of two sets of coordinates, by the only set, and by the first.
+/// The short form runs one way.
 fn second_coordinates_agree(sheets: fn([&str; 2], &str) -> String, way: StageMode) {
     let folder = folder_with_texture();
     let light = "[[light]]\ntype = \"environment\"\nradiance = 0.5\n";
@@ -281,7 +282,7 @@ fn second_coordinates_agree(sheets: fn([&str; 2], &str) -> String, way: StageMod
         let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
         assert_agrees(&format!("second coordinates, {stages:?}"), &scene, &options);
     }
-    // The same by a texture that lies by the only coordinates of meshes, which are those.
+    // A texture that lies by the only coordinates of its meshes gives an equal scene.
     let only = load(&[HEAD, &sheets(["", "uvs"], ""), light]);
     let first = load(&[HEAD, &sheets(["uvs", "second_uvs"], ""), light]);
     let by_reference = |scene: &Scene| {

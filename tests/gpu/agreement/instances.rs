@@ -153,7 +153,7 @@ fn ways() -> [PlanOptions; 2] {
     [StageMode::Fused, StageMode::Wavefront].map(|mode| PlanOptions { stages: Some(mode), ..PlanOptions::default() })
 }
 
-/// The same scene with a shape of its own for every mesh of every instance.
+/// The scene with a shape of its own for every mesh of every instance.
 fn with_copies(scene: &Scene) -> Scene {
     let mut copies = scene.clone();
     for entry in std::mem::take(&mut copies.instances) {
@@ -236,7 +236,7 @@ fn reference_bits(scene: &Scene) -> Vec<[u32; 3]> {
     pixels
 }
 
-/// What a moving instance holds turns about where that one stands, not about itself.
+/// The content of a moving instance turns about the instance's place, not about itself.
 #[test]
 fn what_moving_instances_hold_moves_with_them() {
     let motion = "motion = [{ scale = [1.2, 0.8, 1] }, { rotate = [0.3, 1, 0], degrees = 90 }, { translate = [0.3, 0.2, 0] }]\n";

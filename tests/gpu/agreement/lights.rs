@@ -251,7 +251,7 @@ fn every_light_that_is_no_surface_agrees() {
     let lights = [all, ("extreme map", EXTREME_MAP.to_owned())].into_iter().chain(skies).chain(thrown);
     for (index, (name, lights)) in lights.enumerate() {
         let mut scene = load(&[&lights]);
-        // What is no part of all is compared by one way to run.
+        // The other scenes are compared by one way to run.
         for (_, (estimator, way)) in by_turns(everywhere || index == 0, index) {
             scene.render.estimator = if lights == MAP && estimator == Estimator::Nee { Estimator::Bsdf } else { estimator };
             assert_agrees(&format!("{name}, {:?}", scene.render.estimator), &scene, &way);
@@ -359,7 +359,8 @@ fn a_tree_of_lights_agrees() {
     assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
 }
 
-/// The same lamps by what reaches the place; as a wavefront, where surfaces let light through, and with several light samples.
+/// Lamps are chosen by what reaches the place; as a wavefront, where surfaces let light through, and with
+/// several light samples.
 #[test]
 fn cells_of_lights_agree() {
     let mut bazaar = super::small("bazaar", 48, 8);
@@ -399,8 +400,9 @@ pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     Some(verify::compare(theirs, &mut gpu, &mut cpu, None).expect("both render"))
 }
 
-/// The same comparison notices a spot that opens a degree wider, a picture thrown aslant, a map turned by a degree, spheres drawn from otherwise, and portals that
-/// one device does not know of. The reference renders what is changed, so that the device needs few kernels.
+/// The comparison notices a spot that opens a degree wider, a picture thrown aslant, a map turned by a
+/// degree, spheres drawn from otherwise, and portals that one device does not know of. The reference renders
+/// the changed scene, so that the device needs few kernels.
 #[test]
 fn other_lights_are_noticed() {
     let thrown = load(&[SLIDE, THROWN]);

@@ -11,7 +11,6 @@ use gpt::verify::path::compare_path;
 use super::lights::compare_unequal;
 use super::wall::Wall;
 use super::{DEVICE, assert_agrees};
-use crate::common::effort::in_full;
 
 /// A sphere and a smooth, textured tetrahedron of the material `m` on a floor, under a lamp, a point light and an environment.
 const STAGE: &str = r#"
@@ -245,9 +244,11 @@ pub fn of_cell(scene: &Scene, wall: &[(String, String)], name: &str) -> usize {
 fn every_lobe_and_texture_agrees() {
     let materials = [owned(LOBES), owned(RELIEFS)].concat();
     wall(8, &materials).assert_agrees("lobes and textures", &PlanOptions::default(), |_| {});
-    if !in_full("each example of a material, each lobe and each texture alone") {
-        return;
-    }
+}
+
+#[test]
+#[ignore = "long: each example of a material, each lobe and each texture alone"]
+fn every_lobe_and_texture_agrees_alone() {
     for (name, material) in load::file::material_examples() {
         assert_agrees(name, &stage(&material), &PlanOptions::default());
     }
@@ -309,10 +310,8 @@ fn with_edges(material: &str) -> Scene {
 }
 
 #[test]
+#[ignore = "long: each map of heights or normals alone"]
 fn maps_of_heights_and_scaled_normals_agree() {
-    if !in_full("each map of heights or normals alone") {
-        return;
-    }
     for (name, material) in RELIEFS {
         assert_agrees(name, &with_edges(material), &PlanOptions::default());
     }
@@ -320,10 +319,8 @@ fn maps_of_heights_and_scaled_normals_agree() {
 
 /// The control: with the surface's own in place of normals that look away, the picture is another one.
 #[test]
+#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
 fn missing_mirrors_of_bent_normals_are_noticed() {
-    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
-        return;
-    }
     let theirs = with_edges(
         "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
     );
@@ -335,10 +332,8 @@ fn missing_mirrors_of_bent_normals_are_noticed() {
 
 /// The control: a coat without its map, and one that lies as the base below it, make another picture.
 #[test]
+#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
 fn missing_normals_of_coats_are_noticed() {
-    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
-        return;
-    }
     let coated =
         "type = \"principled\"\nbase_color = 0.1\nmetallic = 0\nroughness = 0.5\nclearcoat = 1\nclearcoat_roughness = 0.3\n";
     let theirs = stage(&format!("{coated}coat_normal_map = \"bumps\""));
@@ -352,10 +347,8 @@ fn missing_normals_of_coats_are_noticed() {
 
 /// The control: with the direction of u in place of a texture's, the picture is another one.
 #[test]
+#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
 fn missing_directions_of_anisotropy_are_noticed() {
-    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
-        return;
-    }
     let brushed = "type = \"principled\"\nroughness = 0.4\nanisotropy = 0.9\n";
     let theirs = stage(&format!("{brushed}anisotropy_direction = \"bumps\""));
     let Some(verdict) = compare_unequal(&stage(brushed), &theirs) else { return };
@@ -364,10 +357,8 @@ fn missing_directions_of_anisotropy_are_noticed() {
 
 /// The control: without the shadow of the surface, the picture is another one.
 #[test]
+#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
 fn missing_shadows_of_bent_normals_are_noticed() {
-    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
-        return;
-    }
     let theirs =
         with_edges("type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true");
     let mut ours = theirs.clone();
@@ -378,10 +369,8 @@ fn missing_shadows_of_bent_normals_are_noticed() {
 
 /// The control: a tenth more height is noticed.
 #[test]
+#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
 fn other_heights_are_noticed() {
-    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
-        return;
-    }
     let theirs = with_edges("type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"bumps\"\nbump_scale = 0.3");
     let mut ours = theirs.clone();
     for texture in &mut ours.textures {

@@ -127,7 +127,7 @@ fn unlimited_depth_agrees() {
     assert_agrees("unlimited, wavefront", &scene, &wavefront);
 }
 
-/// The same test must notice a device that adds 1 % of energy to one material.
+/// The test must notice a device that adds 1 % of energy to one material.
 #[test]
 fn a_planted_error_is_noticed() {
     let Some(device) = DEVICE.as_ref() else { return };
@@ -143,7 +143,7 @@ fn a_planted_error_is_noticed() {
     let verdict = verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
     assert!(!verdict.agrees && !verdict.rejections.is_empty(), "{verdict:#?}");
 
-    // What is left behind shows it: the device's picture is 1 % brighter than the reference's.
+    // The evidence shows it: the device's picture is 1 % brighter than the reference's.
     let folder = tempfile::tempdir().expect("a temporary folder");
     let written = verify::evidence::write(folder.path(), &scene, &verdict).expect("the evidence is written");
     assert_eq!(written.len(), 4);

@@ -150,7 +150,8 @@ fn every_shape_agrees_in_every_part() {
     }
 }
 
-/// The same comparison notices a shape that is a hundredth larger: each of those on the wall, and what is infinite by itself.
+/// The comparison notices a shape that is a hundredth larger: each of those on the wall, and infinite ones by
+/// themselves.
 #[test]
 fn a_shape_off_by_a_hundredth_is_noticed() {
     let step = || gpt::scene::TransformStep::Scale(glam::DVec3::splat(1.01));

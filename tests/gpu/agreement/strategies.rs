@@ -7,7 +7,6 @@ use gpt::scene::{Aperture, ApertureShape, Filter, FilterKind, PixelSampler, Proj
 use gpt::verify::{self, Verdict};
 
 use super::{DEVICE, assert_agrees, small};
-use crate::common::effort::in_full;
 
 /// Each sampler of the path beside another of the pixel, another filter and another aperture, through either kind of lens by turns: what the tests below
 /// compare one by one in the long form.
@@ -38,10 +37,8 @@ const FILTERS: [(FilterKind, f64); 5] = [
 ];
 
 #[test]
+#[ignore = "long: every sampler alone"]
 fn every_sampler_agrees() {
-    if !in_full("every sampler alone") {
-        return;
-    }
     for sampler in SamplerKind::ALL {
         // 13 samples make strata of unequal shape; more bounces than sequences cover.
         let mut scene = small("cornell", 32, 13);
@@ -56,11 +53,9 @@ fn every_sampler_agrees() {
 }
 
 #[test]
+#[ignore = "long: every sampler of the pixel with each of three samplers"]
 fn every_sampler_of_the_pixel_agrees() {
     let pixel_samplers = SamplerKind::ALL.map(PixelSampler::Other).into_iter().chain([PixelSampler::Centre]);
-    if !in_full("every sampler of the pixel with each of three samplers") {
-        return;
-    }
     for pixel_sampler in pixel_samplers {
         for sampler in [SamplerKind::Independent, SamplerKind::Halton, SamplerKind::Sobol] {
             let mut scene = small("spheres", 24, 5);
@@ -73,10 +68,8 @@ fn every_sampler_of_the_pixel_agrees() {
 }
 
 #[test]
+#[ignore = "long: every filter alone"]
 fn every_filter_agrees() {
-    if !in_full("every filter alone") {
-        return;
-    }
     for (kind, radius) in FILTERS {
         let mut scene = small("spheres", 32, 8);
         scene.film.filter = Filter { kind, radius };
@@ -103,11 +96,9 @@ fn through_a_lens(shape: ApertureShape, projection: Option<Projection>) -> Scene
 }
 
 #[test]
+#[ignore = "long: every aperture with either projection"]
 fn every_aperture_and_projection_agrees() {
     let parallel = Projection::Orthographic { height: 5.0 };
-    if !in_full("every aperture with either projection") {
-        return;
-    }
     for projection in [None, Some(parallel)] {
         for shape in APERTURES {
             let scene = through_a_lens(shape, projection);
@@ -129,7 +120,7 @@ pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     Some(verify::compare(theirs, &mut gpu, &mut cpu, None).expect("both render"))
 }
 
-/// The same comparison notices when the devices draw from different samplers, be it for the pixel alone.
+/// The comparison notices when the devices draw from different samplers, be it for the pixel alone.
 #[test]
 fn another_sampler_is_noticed() {
     let scene = small("spheres", 24, 4);

@@ -161,7 +161,8 @@ fn product(scene: &mut Scene) -> &mut gpt::scene::Texture {
     scene.textures.iter_mut().find(|texture| texture.name == "product").expect("it is there")
 }
 
-/// The same test must notice another channel, a texture that is turned the other way, one that is not as far away, and other products.
+/// The test must notice another channel, a texture that is turned the other way, one that is not as far away,
+/// and other products.
 #[test]
 fn another_channel_and_another_place_are_noticed() {
     let Some(device) = DEVICE.as_ref() else { return };
@@ -182,7 +183,7 @@ fn another_channel_and_another_place_are_noticed() {
         |scene| product(scene).times = None,
         |scene| product(scene).times = Some(0),
     ];
-    // It is the reference that has the fault, so that the device needs no kernel for each.
+    // The reference has the fault, so that the device needs no kernel for each.
     let mut gpu = gpt::gpu::GpuRenderer::on(device, &scene, &PlanOptions::default()).expect("the scene fits");
     for (number, fault) in faults.into_iter().enumerate() {
         let mut faulty = scene.clone();

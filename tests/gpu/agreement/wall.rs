@@ -15,7 +15,7 @@ use super::materials::BUMPS;
 
 /// Pixels along a side of a cell.
 const SIDE: usize = 16;
-/// What everything else stands before, and what shines on it. Cells are squares of length 1, seen by parallel rays.
+/// The background of all cells, and the light on them. Cells are squares of length 1, seen by parallel rays.
 const ROOM: &str = r#"
 [render]
 spp = 4

@@ -17,7 +17,7 @@ pub struct Case {
 }
 
 pub const ALL: [Estimator; 3] = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
-/// Those that see point lights.
+/// The estimators that see point lights.
 pub const WITH_LIGHT_SAMPLING: [Estimator; 2] = [Estimator::Mis, Estimator::Nee];
 
 pub fn all() -> Vec<Case> {
@@ -68,7 +68,7 @@ fn furnaces(cases: &mut Vec<Case>) {
             scene.render.roulette_depth = if albedo > 0.5 { 24 } else { 9 }.into();
             let walls = glowing(&mut scene, albedo, 1.0);
             room.iter().for_each(|part| shape(&mut scene, part.clone(), walls));
-            // Where emitting walls meet at an edge, light sampling alone has infinite variance.
+            // Emitting walls that meet at an edge give light sampling alone infinite variance.
             let estimators = if name == "sphere" { &ALL[..] } else { &[Estimator::Mis, Estimator::Bsdf] };
             push(cases, &format!("furnace {name}, albedo {albedo}"), &scene, DVec3::splat(1.0 / (1.0 - albedo)), estimators);
             if name == "sphere" {

@@ -89,7 +89,7 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
     let principled = |base: DVec3, metallic: f64, roughness: f64, transmission: f64| {
         MaterialKind::Principled(Box::new(plain_principled(base, metallic, roughness, transmission)))
     };
-    // What rough metals lose is in a table, which is right to 0.002; smooth ones lose nothing.
+    // The losses of rough metals are in a table, which is right to 0.002; smooth ones lose nothing.
     let compensated = MaterialKind::Principled(Box::new(Principled {
         energy_compensation: true,
         ..plain_principled(DVec3::ONE, 1.0, 0.0, 0.0)
@@ -120,7 +120,7 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
             MaterialKind::Glass { ior: 1.5, reflectance: constant(a), transmittance: constant(b), thin: true },
             (0.08 * a + 0.96 * b) / 1.04,
         ),
-        // Of light that meets one microfacet alone, what is not reflected goes through.
+        // The light that meets one microfacet alone, and is not reflected, goes through.
         ("rough thin glass of alpha 1", rough_plate, DVec3::splat(1.0 - std::f64::consts::LN_2)),
         ("principled white metal", principled(DVec3::ONE, 1.0, 1.0, 0.0), DVec3::splat(1.0 - std::f64::consts::LN_2)),
         // Nothing is lost.

@@ -31,7 +31,7 @@ const ALPHA: f64 = 0.01;
 /// Renders a scene by its own settings: pixels row by row from the top.
 pub type Render = fn(&Scene) -> Vec<[f32; 3]>;
 
-/// What is tested: a name, how it renders, and the relative error its arithmetic may have.
+/// The renderers that are tested: a name, a function, and the relative error that the arithmetic may have.
 const DEVICES: [(&str, Render, f64); 3] =
     [("cpu", render_on_cpu, 2e-6), ("gpu, fused", render_fused, 2e-5), ("gpu, wavefront", render_by_wavefront, 2e-5)];
 
@@ -44,12 +44,12 @@ fn render_on_cpu(scene: &Scene) -> Vec<[f32; 3]> {
     collect(&mut ReferenceRenderer::new(scene).expect("the scene is supported"), scene)
 }
 
-/// What the plan chooses for such small scenes: unrolled geometry, one kernel.
+/// Renders by the plan of such small scenes: unrolled geometry, one kernel.
 fn render_fused(scene: &Scene) -> Vec<[f32; 3]> {
     render_on_gpu(scene, &PlanOptions::default())
 }
 
-/// What the plan chooses for large scenes: a hierarchy, a kernel per stage.
+/// Renders by the plan of large scenes: a hierarchy, a kernel per stage.
 fn render_by_wavefront(scene: &Scene) -> Vec<[f32; 3]> {
     let (traversal, stages) = (TraversalChoice::Bvh, Some(StageMode::Wavefront));
     render_on_gpu(scene, &PlanOptions { traversal, stages, ..PlanOptions::default() })
@@ -140,7 +140,7 @@ fn assert_all_hold(all: &[Case], devices: &[(&str, Render, f64)]) {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// What a part of a case's samples shows.
+/// The result of a part of a case's samples.
 #[derive(Default)]
 struct Look {
     /// Every channel rejects one of the truth and 1 % less. Too few samples reject none, or both where they miss what is rare.

@@ -143,7 +143,8 @@ fn a_time_that_is_up_leaves_a_whole_picture() {
     }
 }
 
-/// What time ended is the picture of as many samples: whole steps, of the same samples, weighed rightly.
+/// A picture that time ended equals the picture of as many samples: whole steps, of the same samples, weighed
+/// rightly.
 #[test]
 fn a_picture_that_time_ended_is_the_one_of_its_samples() {
     let scene = cornell([64, 48]);
@@ -201,7 +202,7 @@ fn rare_light() -> Scene {
     load::load_toml_str(text, "rare light", Path::new(".")).expect("the scene is valid")
 }
 
-/// The same means with next to no noise.
+/// A scene of equal means with next to no noise.
 fn sampling_light(scene: &Scene) -> Scene {
     let mut sampled = scene.clone();
     sampled.render.estimator = scene::Estimator::Mis;

@@ -19,8 +19,8 @@ fn judge(truth: f64, mut picture: impl FnMut(u32) -> Vec<[f32; 3]>) -> TestResul
     one_sample_t_test(&means, truth)
 }
 
-/// What `adaptive` must not do: more samples where the first ones met light, and then the plain mean of all. Pixels that were dark by
-/// chance stay so.
+/// The mistake that `adaptive` must not make: more samples where the first ones met light, and then the plain
+/// mean of all. Pixels that were dark by chance stay so.
 fn naive(renderer: &mut dyn Renderer, scene: &Scene, seed: u32) -> Vec<[f32; 3]> {
     let (first, all) = (8, 120);
     let pilot = pixels(&render_batch(renderer, scene, 0..first, seed, None));
@@ -48,7 +48,7 @@ fn samples_that_follow_the_noise_leave_the_mean_where_it_is() {
     assert!(control.p_value < 1e-6 && control.statistic < 0.0, "the naive estimator passes: {control:?}");
 }
 
-/// The same by the reference, with fewer pictures, and with the streams of a target that is never reached.
+/// The reference is tested with fewer pictures, and with the streams of a target that is never reached.
 #[test]
 fn the_reference_and_streams_are_unbiased_too() {
     let scene = rare_light();

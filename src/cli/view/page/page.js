@@ -2,7 +2,7 @@ const $ = (id) => document.getElementById(id);
 const canvas = $("canvas"), screen = canvas.getContext("2d");
 const picture = { width: 0, height: 0, number: 0, values: new Float32Array(0) };
 const developed = document.createElement("canvas");
-// Where the picture's corner is on the canvas, and screen pixels for one of its own. It fits until somebody moves it.
+// The place of the picture's corner on the canvas, and screen pixels for one of its own. It fits until somebody moves it.
 const place = { x: 0, y: 0, scale: 1, fits: true };
 let state = null, wanted = "", layer = "", autoExposure = false, frame = 0, isStale = true, pointer = null;
 

@@ -62,10 +62,8 @@ fn samples_follow_their_densities() {
 
 /// With more samples, at one angle of each.
 #[test]
+#[ignore = "long: a million directions of every lobe"]
 fn many_samples_follow_their_densities() {
-    if !in_full("a million directions of every lobe") {
-        return;
-    }
     let cases = non_delta_lobes();
     let level = sidak(0.01, cases.len());
     cases.into_par_iter().enumerate().for_each(|(index, (name, lobe, _))| {

@@ -11,7 +11,8 @@ fn facets_reflect_what_is_known_in_closed_form() {
     assert!((table.at(0.5, 0.0) - 1.0).abs() < 1e-6);
 }
 
-/// What lies between the entries is as it would be if it were computed there, from 0.06° above the surface on.
+/// Values between the entries are as they would be if they were computed there, from 0.06° above the surface
+/// on.
 #[test]
 fn tables_are_dense_enough() {
     type Share = fn(f64, f64) -> f64;
@@ -50,8 +51,7 @@ fn double_exponential(count: usize) -> Vec<[f64; 3]> {
     (0..count).map(point).collect()
 }
 
-/// What [`facet_albedo`] is, to eight digits, in another way: by spherical coordinates of the microfacets' normals where all are stretched
-/// to width 1, φ from the plane of incidence and ψ from the surface's normal within it, between the ψ from which nothing is reflected down.
+/// The value of [`facet_albedo`], to eight digits, in another way: by spherical coordinates of the microfacets' normals where all are stretched to width 1, φ from the plane of incidence and ψ from the surface's normal within it, between the ψ from which nothing is reflected down.
 fn converged_albedo(cosine: f64, roughness: f64, masking: Masking, across: &[[f64; 3]], along: &[[f64; 3]]) -> f64 {
     let (c, alpha) = (cosine, roughness * roughness);
     let sine = (1.0 - c * c).max(0.0).sqrt();
@@ -60,8 +60,8 @@ fn converged_albedo(cosine: f64, roughness: f64, masking: Masking, across: &[[f6
         MicrofacetDistribution::Ggx.lambda(alpha * alpha * tan_squared)
     };
     let (lambda_o, seen) = (lambda(c), (alpha * sine).atan2(c));
-    // What is reflected leaves upward where 2·(wo·m)·mz > c, in T = tan ψ:
-    // c·α²·(1 + q)·T² − 2·sin θ·α·T + c·(α²·q − 1) < 0, q = tan² φ. No T does beyond this q.
+    // A reflected ray leaves upward where 2·(wo·m)·mz > c, in T = tan ψ: c·α²·(1 + q)·T² − 2·sin θ·α·T +
+    // c·(α²·q − 1) < 0, q = tan² φ. No T does beyond this q.
     let (a, b) = (alpha * alpha, alpha * alpha - 1.0);
     let most = ((b * b + 4.0 * a * (1.0 + (sine / c).powi(2))).sqrt() - b) / (2.0 * a);
     let most_phi = most.sqrt().atan();

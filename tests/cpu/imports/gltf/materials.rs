@@ -64,7 +64,7 @@ fn coats_have_normal_maps_of_their_own() {
     assert!(picture(&scene) != bent_more, "the pictures are alike");
 }
 
-/// Of the texture, red and green are the direction and blue is the strength.
+/// Red and green of the texture are the direction, and blue is the strength.
 #[test]
 fn directions_of_anisotropy_are_read() {
     let brushed = |anisotropy: Value| {
@@ -129,7 +129,7 @@ fn variants_of_materials_are_chosen_by_name() {
         ref other => panic!("{other:?}"),
     };
     assert_eq!(of("new").map(red_of).ok(), Some(0.1));
-    // What a variant says nothing of stays as it is.
+    // Primitives that a variant does not mention stay as they are.
     assert_eq!(of("worn").map(red_of).ok(), Some(0.7));
     let plain = folder.valid("a.gltf");
     assert!(report(&plain).contains("--variant chooses worn, new"), "{}", report(&plain));

@@ -93,7 +93,7 @@ impl File {
         self.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colours);
     }
 
-    /// As JSON with the data in it.
+    /// The file as JSON with the data in it.
     pub fn text(&self) -> Vec<u8> {
         let mut root = self.root.clone();
         let data = base64::engine::general_purpose::STANDARD.encode(&self.data);
@@ -102,7 +102,7 @@ impl File {
         root.to_string().into_bytes()
     }
 
-    /// As a binary file.
+    /// The file in binary form.
     pub fn binary(&self) -> Vec<u8> {
         let mut root = self.root.clone();
         root["buffers"] = json!([{ "byteLength": self.data.len() }]);
@@ -177,7 +177,8 @@ fn what_has_no_camera_and_no_light_is_framed_as_a_model() {
     assert_eq!(picture(&scene), picture(&folder.written("a.glb")));
 }
 
-/// What merely glows, as the labels and lamps of many models do, is lit as well; a lamp of another strength lights by itself.
+/// Surfaces that merely glow, as the labels and lamps of many models do, are lit as well; a lamp of another
+/// strength lights by itself.
 #[test]
 fn what_glows_is_lit() {
     let lights = |factor: [f64; 3], strength: Option<f64>| {

@@ -1,4 +1,4 @@
-//! What moves and bends in glTF.
+//! Motion and deformation in glTF.
 
 use super::*;
 
@@ -40,7 +40,7 @@ fn morph_targets_and_skins_bend_meshes() {
     }
 }
 
-/// Where a corner of the first shape is at a time in seconds.
+/// The place of a corner of the first shape at a time in seconds.
 fn corner(scene: &Scene, seconds: f64) -> glam::Vec3 {
     let scene = scene.at_frame(seconds * scene.animation.frames_per_second).expect("it can be rendered");
     scene.shapes[0].world_positions()[0]

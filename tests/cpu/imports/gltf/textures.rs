@@ -43,7 +43,7 @@ fn with_two_placements(base: Value, roughness: Value, normal: Option<Value>) -> 
     file
 }
 
-/// The same scene by hand, each texture with a placement of its own.
+/// An equal scene by hand, each texture with a placement of its own.
 fn with_placements_by_hand(base: &str, roughness: &str) -> String {
     let texture = |name: &str, space: &str, placement: &str| {
         format!(
@@ -92,7 +92,7 @@ fn each_texture_lies_as_its_own_transform_says() {
     assert_eq!(picture(&scene), expected);
     assert_eq!(picture(&folder.written("a.gltf")), expected);
     assert_ne!(picture(&folder.valid("c.toml")), expected, "the control");
-    // What lies alike is applied to the mesh.
+    // A placement that all textures share is applied to the mesh.
     let alike = folder.valid("d.gltf");
     assert!(mesh(&alike, 0).uvs[1].abs_diff_eq(glam::Vec2::new(2.25, 0.5), 1e-6), "{:?}", mesh(&alike, 0).uvs);
     // A normal map that is turned has the mesh's coordinates, so that its directions are turned as well.
@@ -226,7 +226,7 @@ fn vertex_colours_multiply_textures() {
     let green = |name: &str| of(name).iter().map(|pixel| f32::from_bits(pixel[1])).fold(0.0, f32::max);
     assert_eq!(green("red.gltf"), 0.0);
     assert!(green("white.gltf") > 0.0);
-    // What is behind shows through as far as alpha says.
+    // The surface behind shows through as far as alpha says.
     let seen = of("seen.gltf");
     assert_ne!(seen, plain, "the control");
     assert_eq!(of("white-seen.gltf"), seen);

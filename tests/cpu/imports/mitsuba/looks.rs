@@ -85,7 +85,7 @@ fn mesh_attributes_are_textures() {
     let weighed = read("face_weight", true);
     let weights = texels(&weighed, "face_weight");
     assert_eq!([weights[0], weights[5], weights[2], weights[7]], [[0.25; 3], [0.25; 3], [0.75; 3], [0.75; 3]]);
-    // What is not there is told.
+    // A missing attribute is reported.
     assert!(report(&read("vertex_nothing", false)).contains("attribute `vertex_nothing`"));
 }
 
@@ -118,7 +118,8 @@ fn bumps_and_thrown_pictures_are_exact() {
     assert_eq!(picture(&folder.written("a.xml")), picture(&scene));
 }
 
-/// Where both coordinates are below a half, a checkerboard of colours shows its first one and a checkerboard of numbers its second.
+/// Below a half in both coordinates, a checkerboard of colours shows its first one and a checkerboard of
+/// numbers its second.
 #[test]
 fn checkerboards_of_numbers_are_the_other_way_round() {
     let board = |name: &str| {
@@ -136,7 +137,8 @@ fn checkerboards_of_numbers_are_the_other_way_round() {
     }
 }
 
-/// As there, unless the scene says otherwise; the picture is that of the scene file written from it.
+/// The shadow is Mitsuba's, unless the scene says otherwise; the picture is that of the scene file written
+/// from it.
 #[test]
 fn bent_normals_are_shadowed() {
     let map = |more: &str| {

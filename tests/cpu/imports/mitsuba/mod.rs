@@ -184,7 +184,7 @@ fn groups_of_meshes_become_instances() {
         let copy = few.shapes[before + number].transform.to_affine().transform_point3(glam::DVec3::X);
         assert!((placed(&many, number) - copy).length() < 1e-12, "{copy}");
     }
-    // What is no mesh, or gives light, is copied.
+    // Shapes that are no meshes, or give light, are copied.
     for more in [
         r#"<shape type="sphere"/>"#,
         r#"<shape type="cube"><boolean name="flip_normals" value="true"/><emitter type="area"/></shape>"#,
@@ -328,7 +328,7 @@ fn crops_and_principal_points_shift_the_picture() {
     assert_eq!(read("", "").shift, [0.0, 0.0]);
 }
 
-/// What has no sensor is framed, whatever its shapes are.
+/// A scene without a sensor is framed, whatever its shapes are.
 #[test]
 fn scenes_without_sensor_and_meshes_are_framed() {
     for (shape, size) in [("sphere", 1.0), ("disk", 1.0), ("rectangle", 1.0), ("cube", 1.0), ("cylinder", 1.0), ("sphere", 100.0)]
