@@ -11,7 +11,7 @@ use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Projection, Sc
 /// A pinhole or thin-lens camera, perspective or orthographic, with its frame worked out.
 #[derive(Debug, Clone)]
 pub struct ProjectiveCamera {
-    /// Where it is, at even steps of time while the shutter is open; one where it rests.
+    /// Poses of the camera, at even steps of time while the shutter is open; one where it rests.
     poses: Vec<Pose>,
     orthographic: bool,
     /// To the right and up, in windows.
@@ -21,7 +21,7 @@ pub struct ProjectiveCamera {
     aperture: Option<Aperture>,
 }
 
-/// What of the camera is different where it moves.
+/// The part of the camera that differs where it moves.
 #[derive(Debug, Clone)]
 struct Pose {
     position: DVec3,
@@ -36,7 +36,7 @@ struct Pose {
 
 /// A ray before its direction has length 1: of a film position and a point of the lens, linear in where the camera is.
 struct Unscaled {
-    /// Where the ray through the middle of the lens starts, and its direction.
+    /// Origin of the ray through the middle of the lens, and its direction.
     middle: DVec3,
     direction: DVec3,
     /// From the middle of the lens.

@@ -1,4 +1,5 @@
-//! What rays of the camera meet first, and what beyond surfaces that let them through, each with the share of the ray that it stops.
+//! Surfaces that rays of the camera meet first, and beyond surfaces that let them through, each with the
+//! share of the ray that it stops.
 
 use glam::DVec3;
 
@@ -9,7 +10,7 @@ use super::trace::PathVisitor;
 /// Watches a path up to the surface that scatters it.
 #[derive(Default)]
 pub struct FirstOwners {
-    /// Of each surface that was met, and the share of the ray that ends there, on average over the choices that the path made.
+    /// Owner of each surface that was met, and the share of the ray that ends there, on average over the choices that the path made.
     pub shares: Vec<(Owner, f64)>,
     reached: bool,
 }
@@ -26,7 +27,7 @@ impl PathVisitor for FirstOwners {
 
     fn scattered(&mut self, sample: &BsdfSample) {
         self.reached = !sample.is_null;
-        // What goes on does not end here. A ray goes on more or less often than it is let through, and its weight makes up for that, so the
+        // The part of a ray that goes on does not end here. A ray goes on more or less often than it is let through, and its weight makes up for that, so the
         // share is right on average: it is not the number of rays that end.
         if let (true, Some((_, share))) = (sample.is_null, self.shares.last_mut()) {
             *share -= *share * mean(sample.weight);

@@ -1,6 +1,6 @@
 //! Scattering by a surface's BSDF and by a guide together.
 //!
-//! Of the directions, a share g is drawn by the guide and the rest by the BSDF. Whichever drew it, a direction that other lobes than delta
+//! A share g of the directions is drawn by the guide and the rest by the BSDF. Whichever drew it, a direction that other lobes than delta
 //! lobes can have counts f·|cosθ| over the density of both together, g·p_guide + (1 − g)·p_bsdf, and light sampling is weighed against the
 //! same sum. A sample of a delta lobe counts 1/(1 − g) times as much, as the guide leaves it to the BSDF. Directions of the guide that lead
 //! below the surface bring nothing.
@@ -34,7 +34,7 @@ impl<'a> GuidedBsdf<'a> {
         &self.bsdf.view
     }
 
-    /// As [`GuideCell::sent_on`]; none where there is no guide.
+    /// [`GuideCell::sent_on`] of the guide; None where there is no guide.
     pub fn sent_on(&self) -> Option<[f64; 2]> {
         self.guide.as_ref().map(|(cell, _)| cell.sent_on())
     }

@@ -29,7 +29,7 @@ use crate::scene::{Emitters, Estimator, MaterialId, Scene};
 #[derive(Debug, Clone)]
 pub struct Integrator {
     scene: Scene,
-    /// What the scene was moved by.
+    /// The vector by which the scene was moved.
     center: DVec3,
     world: World,
     lights: Lights,
@@ -50,7 +50,7 @@ struct Path {
     time: PathTime,
     /// Product of f·|cosθ| / density over the surfaces so far, roulette included.
     throughput: DVec3,
-    /// What the path has found.
+    /// Radiance that the path has found.
     radiance: DVec3,
     /// Product of eta² over the refractions so far: undoes the scaling of radiance, so that roulette does not
     /// end paths for being inside glass.
@@ -62,7 +62,7 @@ struct Path {
     /// against each other by the densities that they have there.
     previous: Density,
     lit_from: LitPoint,
-    /// Of what the ray goes through.
+    /// Extinction of the volume that the ray goes through.
     extinction: DVec3,
     /// Edges of the path up to the end of the ray: the camera's has 1.
     depth: u32,

@@ -29,14 +29,14 @@ pub fn layer_scene(scene: &Scene, layer: KernelLayer) -> Cow<'_, Scene> {
 /// Watches a path of a [`layer_scene`], and gives it up where the layer's surface is reached.
 pub struct LayerVisitor<'a, V> {
     layer: KernelLayer,
-    /// Where depth is counted from, and along what.
+    /// The point from which depth is counted, and the direction along which.
     camera: [DVec3; 2],
     /// Is told of rays, and may give paths up as well.
     other: &'a mut V,
     /// Edges up to the ray's end.
     edges: u32,
     throughput: DVec3,
-    /// Of the surface that was met last; None where nothing was.
+    /// The value of the surface that was met last; None where nothing was.
     found: Option<DVec3>,
     reached: bool,
     light: DVec3,

@@ -1,7 +1,8 @@
 //! The reference integrator: one readable loop in f64, on the CPU, over the scene as it stands.
 //!
-//! It draws the same random numbers as the device and takes the same decisions, so that the two agree path by path, and it renders
-//! where there is no device. The way of a sample: [`camera`] makes a ray, [`integrator`] follows it from surface to surface,
+//! The reference draws the same random numbers as the device and takes the same decisions, so that the two
+//! agree path by path. The CPU's renderer ([`crate::cpu`]) and learning ([`crate::learn`]) use it. The way of
+//! a sample: [`camera`] makes a ray, [`integrator`] follows it from surface to surface,
 //! [`intersect`] says which surface it meets, [`bsdf`] how that scatters, [`texture`](crate::texture) what it is made of there, [`lights`] where light is looked for, [`mis`] how the
 //! two ways of finding light share it.
 

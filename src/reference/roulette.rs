@@ -19,7 +19,7 @@ pub fn survival(throughput: DVec3, depth: u32) -> f64 {
     throughput.max_element().min(largest_survival(depth))
 }
 
-/// What a guided path was expected to bring at its first surface with a guide.
+/// The light that a guided path was expected to bring at its first surface with a guide.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Expectation(Option<f64>);
 

@@ -1,4 +1,4 @@
-//! What rounding to single precision may do to a path.
+//! Effects that rounding to single precision may have on a path.
 //!
 //! A device computes in f32, the reference in f64. Where the two differ on a path, the question is whether rounding explains it: it does
 //! where the path is so steep, or so close to a decision, that errors of rounding's size move the reference itself as far. So the
@@ -147,7 +147,7 @@ impl PathVisitor for Rounding {
         self.round_direction(&mut light.wi);
         // Kernels end shadow rays early, by an error of their own.
         light.distance *= 1.0 - (self.draw() + 1.0) * self.size;
-        // What comes from outside the scene depends on the direction alone.
+        // Light from outside the scene depends on the direction alone.
         if light.distance.is_infinite() && !light.delta {
             light.radiance = lights.outside().radiance(light.wi);
         }

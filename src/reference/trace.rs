@@ -17,14 +17,14 @@ pub struct LightConnection {
     /// Weight by multiple importance sampling.
     pub weight: f64,
     pub visible: bool,
-    /// What was added to the path's radiance.
+    /// The contribution to the path's radiance.
     pub contribution: DVec3,
 }
 
 /// Is told what happens along a path, in this order. Those that do not care leave the methods as they are, at
 /// no cost.
 pub trait PathVisitor {
-    /// Whether light is sampled for the path.
+    /// Light is sampled for the path.
     const LIGHTS: bool = true;
     /// A path or shadow ray is traced.
     fn ray(&mut self, _ray: &Ray) {}
@@ -33,7 +33,7 @@ pub trait PathVisitor {
     fn surface(&mut self, _depth: u32, _surface: &Surface, _wo: DVec3, _throughput: DVec3) {}
     /// The surface emits towards the path.
     fn emission(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
-    /// Whether the method below is called.
+    /// The method below is called.
     const COMPARES: bool = false;
     /// The direction of the light sample or of the path that is told of next would have so many times its
     /// density without a guide.
@@ -44,7 +44,7 @@ pub trait PathVisitor {
     fn light(&mut self, _connection: &LightConnection) {}
     fn scattered(&mut self, _sample: &BsdfSample) {}
     fn roulette(&mut self, _survival: f64, _survived: bool) {}
-    /// Whether to leave off following a path that has so many vertices.
+    /// Says that a path with so many vertices is not to be followed any further.
     fn gives_up(&mut self, _vertices: u32) -> bool {
         false
     }

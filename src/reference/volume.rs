@@ -6,7 +6,7 @@ use super::intersect::Surface;
 use crate::scene::Scene;
 use crate::scene::material::FARTHEST;
 
-/// What takes light behind surfaces.
+/// Volumes behind surfaces.
 #[derive(Debug, Clone)]
 pub struct Volumes {
     /// The extinction behind a surface of each material; None: such a surface encloses nothing. Empty: none does.

@@ -2,9 +2,8 @@
 
 use super::super::extent::{has_few_pixels, has_many_triangles};
 use super::cost::costs;
-use super::rays::Rays;
-use super::tried::{Found, InView, errors_of_guiding};
-use super::tried_pixels;
+use super::sum::{Rays, Sum};
+use super::tried::{Found, InView, errors_of_guiding, tried_pixels};
 use crate::reference::integrator::Integrator;
 use crate::scene::{FEW_PRIMITIVES, Scene};
 
@@ -24,7 +23,7 @@ pub fn loss_with_guide(integrator: &mut Integrator) -> f64 {
     let costs = costs(integrator.primitive_count() <= FEW_PRIMITIVES);
     let cost = |rays: Rays, of_guide: f64| (1.0 + of_guide) * rays.path + costs.light_sample * rays.shadow;
     let unguided_rays = tales.iter().fold(Rays::default(), |sum, tale| sum.and(tale.rays));
-    let rays = found.rays().times(1.0 / found.samples_of_pixel());
+    let rays = found.rays().times(1.0 / Found::paths(1));
     let [error, unguided_error] = errors_of_guiding(&found, &tales, &in_view);
     let errors = if unguided_error > 0.0 { error / unguided_error } else { 1.0 };
     errors * cost(rays, costs.guide) / cost(unguided_rays, 0.0)

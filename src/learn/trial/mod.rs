@@ -10,7 +10,6 @@
 
 mod cost;
 mod guiding;
-mod rays;
 mod sum;
 mod tried;
 mod unguided;
@@ -18,7 +17,7 @@ mod watched;
 
 use std::borrow::Cow;
 
-use super::extent::{has_few_pixels, has_many_triangles, pixel_count};
+use super::extent::{has_few_pixels, has_many_triangles};
 use super::light_cells::{self, LightsSettled};
 use super::reasons::Reasons;
 use super::work_of_path;
@@ -31,8 +30,8 @@ use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{Estimator, FEW_PRIMITIVES, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 use cost::costs;
 pub use guiding::{loss_with_guide, why_no_guide};
-use rays::Rays;
-use tried::{Found, InView};
+use sum::Rays;
+use tried::{Found, InView, tried_pixels};
 
 /// Gain that a way needs over a simpler one to be chosen: less is noise of the trial run.
 const LEAST_GAIN: f64 = 1.06;
@@ -40,9 +39,6 @@ const LEAST_GAIN: f64 = 1.06;
 const MOST_DEPTH: u32 = 2;
 /// Numbers, each twice the one before, that are tried after the best one.
 const MOST_IN_VAIN: u32 = 2;
-/// One of so many pixels is tried, within these numbers.
-const ONE_OF_PIXELS: u64 = 1 << 10;
-const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
 
 /// Work of the first way that is tried, at most, and work after which no further way is: so that a trial run
 /// takes seconds, whatever the scene.
@@ -161,12 +157,6 @@ fn not_worth_trying(scene: &Scene) -> Option<&'static str> {
         return Some("a trial run takes too long for so few pixels");
     }
     has_many_triangles(scene).then_some("a trial run takes too long for so many triangles")
-}
-
-/// How many pixels are tried.
-fn tried_pixels(scene: &Scene) -> u32 {
-    let [fewest, most] = TRIED_PIXELS;
-    (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32
 }
 
 /// Tries ways to draw from lights, and leaves the best one in the settings of the trial run. Returns the

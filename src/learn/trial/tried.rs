@@ -3,9 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::super::extent::pixel_count;
 use super::super::paths::pixel_of;
-use super::rays::Rays;
-use super::sum::Sum;
+use super::sum::{Rays, Sum};
 use super::unguided::{Tale, UnguidedRecord};
 use super::watched::{Record, Watched};
 use crate::compare::metrics::relative_weight;
@@ -13,7 +13,11 @@ use crate::reference::integrator::Integrator;
 use crate::reference::work;
 use crate::sampling::hash::mix;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
+use crate::scene::Scene;
 
+/// One of so many pixels is tried, within these numbers.
+const ONE_OF_PIXELS: u64 = 1 << 10;
+const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
 /// Each pixel is tried by so many independent pictures of so many samples.
 const PICTURES: u32 = 4;
 const SAMPLES: u32 = 16;
@@ -28,6 +32,12 @@ const PIXELS_OF_PATCH: usize = 16;
 const LEAST_ERROR: f64 = 0.25;
 /// Seed of the random numbers.
 const SEED: u32 = 0x7069_6c6f;
+
+/// How many pixels of the scene's film are tried.
+pub fn tried_pixels(scene: &Scene) -> u32 {
+    let [fewest, most] = TRIED_PIXELS;
+    (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32
+}
 
 /// The result of one way of drawing from lights.
 pub struct Found {
@@ -57,7 +67,7 @@ impl Found {
         (Self { pixels, cost: 0.0, work: works.into_iter().sum() }, told)
     }
 
-    /// Paths that are traced for so many pixels, of each way.
+    /// Paths that each way traces for so many pixels.
     pub fn paths(pixels: u32) -> f64 {
         f64::from(pixels) * f64::from(PICTURES * SAMPLES)
     }
@@ -65,11 +75,6 @@ impl Found {
     /// All together.
     pub fn rays(&self) -> Rays {
         self.pixels.iter().fold(Rays::default(), |sum, pixel| sum.and(pixel.rays))
-    }
-
-    /// How many samples there are of each.
-    pub fn samples_of_pixel(&self) -> f64 {
-        f64::from(PICTURES * SAMPLES)
     }
 
     pub fn has_noise(&self) -> bool {

@@ -10,8 +10,7 @@
 
 use glam::DVec3;
 
-use super::rays::Rays;
-use super::sum::Sum;
+use super::sum::{Rays, Sum};
 use super::watched::Record;
 use crate::reference::bsdf::{BsdfSample, Density};
 use crate::reference::trace::LightConnection;

@@ -3,8 +3,7 @@
 use glam::DVec3;
 
 use super::super::paths::MOST_VERTICES;
-use super::rays::Rays;
-use super::sum::Sum;
+use super::sum::{Rays, Sum};
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::intersect::Surface;
 use crate::reference::trace::{LightConnection, PathVisitor};

@@ -14,12 +14,13 @@ pub fn for_each_part<'a>(lookup: &Lookup<'a>, material: MaterialId, mut visit: i
     for_each_sided_part(lookup, material, |part, weight, _| visit(part, weight));
 }
 
-/// The same, and whether the part scatters light on both sides: it and all blends that it is in do.
+/// Visits each part with its weight, and says that it scatters light on both sides: it and all blends that it
+/// is in do.
 pub fn for_each_sided_part<'a>(lookup: &Lookup<'a>, material: MaterialId, visit: impl FnMut(&'a Material, f64, bool)) {
     walk(lookup.scene, material, |blend| blend_weight::weight(blend, lookup), visit);
 }
 
-/// The same with the weights to be expected before any hit is known.
+/// Visits each part with the weight to be expected before any hit is known.
 pub fn for_each_part_on_average<'a>(scene: &'a Scene, material: MaterialId, mut visit: impl FnMut(&'a Material, f64)) {
     walk(scene, material, blend_weight::mean_weight, |part, weight, _| visit(part, weight));
 }

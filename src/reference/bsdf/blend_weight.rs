@@ -14,7 +14,7 @@ pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {
     match *blend_weight {
         BlendWeight::Constant { value } => value,
         BlendWeight::Facing { power } => cosine.powf(power).clamp(0.0, 1.0),
-        // As seen from outside, on either side.
+        // Both sides are seen as from outside.
         BlendWeight::Fresnel { ior, exact: true } => 1.0 - dielectric_reflectance(cosine, ior),
         BlendWeight::Fresnel { ior, exact: false } => {
             1.0 - schlick_reflectance(cosine, DVec3::splat(normal_incidence_reflectance(ior))).x
@@ -38,7 +38,8 @@ pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {
     }
 }
 
-/// What to expect of w0 without a hit, for choosing lights by power: its value where it is the same everywhere, else one half.
+/// The value of w0 to be expected without a hit, for choosing lights by power: its value where it is the same
+/// everywhere, else one half.
 pub fn mean_weight(blend_weight: &BlendWeight) -> f64 {
     constant_weight(blend_weight).unwrap_or(0.5)
 }

@@ -21,13 +21,13 @@ pub struct Conductor {
 }
 
 impl Conductor {
-    /// What a microfacet reflects at an angle of the given cosine with its normal.
+    /// Reflectance of a microfacet at an angle of the given cosine with its normal.
     fn reflectance(&self, cosine: f64) -> DVec3 {
         self.tint * self.fresnel.at(cosine)
     }
 }
 
-/// What a metal reflects by angle.
+/// Reflectance of a metal, by angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fresnel {
     /// Complex index of refraction.

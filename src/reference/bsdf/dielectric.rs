@@ -47,7 +47,7 @@ impl Dielectric {
         self.split_by(dielectric_reflectance(cosine, eta))
     }
 
-    /// The same of a plate with two boundaries. Light that goes to and fro between them adds up to R = F + (1−F)²F/(1−F²) = 2F/(1+F); the
+    /// Shares of light at a plate with two boundaries. Light that goes to and fro between them adds up to R = F + (1−F)²F/(1−F²) = 2F/(1+F); the
     /// rest goes through. From either side the plate is denser than what it stands in.
     pub fn split_of_plate(&self, cosine: f64) -> Option<Split> {
         let fresnel = dielectric_reflectance(cosine.clamp(0.0, 1.0), self.ior);

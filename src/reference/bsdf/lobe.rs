@@ -23,7 +23,7 @@ macro_rules! lobes {
         }
 
         impl Lobe {
-            /// It scatters in all directions above the surface, mostly evenly.
+            /// The lobe scatters in all directions above the surface, mostly evenly.
             pub fn is_broad(&self) -> bool {
                 matches!(self, Self::Diffuse(_) | Self::Plastic(_) | Self::RoughPlastic(_))
             }

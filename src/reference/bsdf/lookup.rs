@@ -7,7 +7,7 @@ use crate::reference::intersect::Surface;
 use crate::scene::{ColorInput, Scene};
 use crate::texture::{self, Coordinates};
 
-/// Where a material's parameters and weights are looked up.
+/// The place where a material's parameters and weights are looked up.
 #[derive(Debug, Clone, Copy)]
 pub struct Lookup<'a> {
     pub scene: &'a Scene,

@@ -59,7 +59,7 @@ impl Facets {
         Self { alpha, distribution: *distribution, masking: *masking, anisotropic: true }
     }
 
-    /// Those of rough plastic, the same everywhere.
+    /// Facets of rough plastic, which are the same everywhere.
     pub fn of_plastic(interface: &PlasticInterface) -> Self {
         let PlasticInterface { alpha, distribution, masking, .. } = *interface;
         Self { alpha: DVec2::splat(alpha), distribution, masking, anisotropic: false }
@@ -133,7 +133,7 @@ impl Facets {
     }
 }
 
-/// Of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"): on a hemisphere, the visible ones are a half disk and a half
+/// A visible normal of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"): on a hemisphere, the visible ones are a half disk and a half
 /// ellipse seen from wo.
 fn visible_ggx(wo: DVec3, u1: f64, u2: f64) -> DVec3 {
     let across_squared = wo.x * wo.x + wo.y * wo.y;
@@ -146,7 +146,7 @@ fn visible_ggx(wo: DVec3, u1: f64, u2: f64) -> DVec3 {
     x * first + y * second + (1.0 - x * x - y * y).max(0.0).sqrt() * wo
 }
 
-/// Of Beckmann (Heitz and d'Eon 2014): across the direction of view slopes are normally distributed; along it they are weighted by how large
+/// A visible normal of Beckmann's facets (Heitz and d'Eon 2014): across the direction of view slopes are normally distributed; along it they are weighted by how large
 /// they look, and their distribution is inverted numerically.
 fn visible_beckmann(wo: DVec3, u1: f64, u2: f64) -> DVec3 {
     let sine = wo.x.hypot(wo.y);

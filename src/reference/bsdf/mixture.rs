@@ -31,11 +31,11 @@ pub struct Bsdf {
 struct WeightedLobe {
     lobe: Lobe,
     weight: f64,
-    /// Of being sampled; until all lobes are known, in proportion to it.
+    /// Probability of being sampled; until all lobes are known, in proportion to it.
     probability: f64,
 }
 
-/// Those that can be sampled, in order. Most surfaces have one, and need no list for it.
+/// Lobes that can be sampled, in order. Most surfaces have one, and need no list for it.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Lobes {
     first: Option<WeightedLobe>,
@@ -98,7 +98,7 @@ impl Bsdf {
         Self { view, lobes: collected.finish() }
     }
 
-    /// Whether light sampling can contribute.
+    /// Says that light sampling can contribute.
     pub fn has_non_delta_lobe(&self) -> bool {
         self.lobes.iter().any(|weighted| !weighted.lobe.is_delta())
     }

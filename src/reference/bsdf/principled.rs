@@ -44,9 +44,10 @@ pub struct Principled {
     pub coat: f64,
     pub facets: Facets,
     pub coat_facets: Facets,
-    /// What the coat's own normal map has here.
+    /// The texel of the coat's own normal map.
     pub coat_texel: Option<NormalTexel>,
-    /// Of the greater width: along the tangent, and across it towards the bitangent. Of length 1.
+    /// Direction of the greater width: along the tangent, and across it towards the bitangent. Its length is
+    /// 1.
     pub direction: DVec2,
     pub sheen: Sheen,
     pub compensates: bool,
@@ -55,9 +56,9 @@ pub struct Principled {
 /// The ways in which light is scattered, and the probability of sampling each.
 #[derive(Debug, Clone, Copy)]
 struct Shares {
-    /// What the coat's facets lie in.
+    /// The frame of the coat's facets.
     coat_frame: Frame,
-    /// Of all light, what the coat leaves to the rest.
+    /// Share of all light that the coat leaves to the rest.
     below_coat: f64,
     coat: f64,
     reflection: f64,
@@ -65,7 +66,7 @@ struct Shares {
     transmission: f64,
 }
 
-/// What a facet does to light.
+/// Light at a facet.
 struct Split {
     /// Reflected.
     reflected: DVec3,
@@ -84,7 +85,8 @@ impl Principled {
         if view.front { self.ior } else { 1.0 / self.ior }
     }
 
-    /// What a facet reflects seen at an angle of the given cosine, and lets through. `eta` is 1 where light does not change the medium.
+    /// The shares of light that a facet reflects and lets through, seen at an angle of the given cosine.
+    /// `eta` is 1 where light does not change the medium.
     fn split(&self, cosine: f64, eta: f64) -> Split {
         // On the side of air. None: total reflection.
         let outside = if eta < 1.0 { 1.0 - (1.0 - cosine * cosine) / (eta * eta) } else { cosine * cosine };
@@ -114,7 +116,7 @@ impl Principled {
         if self.is_within(view) { 0.0 } else { self.coat * schlick_reflectance(cosine, DVec3::splat(COAT_REFLECTANCE)).x }
     }
 
-    /// What fibres leave to what lies below.
+    /// Share of light that fibres leave to what lies below.
     fn below_sheen(&self, cosine_o: f64, cosine_i: f64) -> f64 {
         1.0 - self.sheen.taken(cosine_o).max(self.sheen.taken(cosine_i))
     }
@@ -189,7 +191,7 @@ impl Principled {
         wi.dot(view.geometric_normal) > 0.0 && wi.dot(shares.coat_frame.normal) > 0.0
     }
 
-    /// What the coat reflects, from a direction from which it does.
+    /// Reflection by the coat, from a direction from which it reflects.
     fn evaluate_coat(&self, view: &View, wi: DVec3, shares: &Shares) -> Evaluation {
         if self.coat_facets.are_smooth() || shares.coat <= 0.0 {
             return Evaluation::default();

@@ -66,7 +66,7 @@ impl Scatter for RoughGlass {
         self.dielectric.sampling_weight()
     }
 
-    /// Where it is smooth, or hardly bends light.
+    /// The glass is smooth, or hardly bends light.
     fn is_delta(&self) -> bool {
         self.facets.are_smooth() || (self.dielectric.ior - 1.0).abs() < SMALLEST_BEND
     }

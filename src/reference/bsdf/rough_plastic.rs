@@ -15,7 +15,7 @@ use crate::scene::material::TRANSMITTANCE_NODES;
 /// A base as that of smooth plastic below a boundary of microfacets, f = F·D·G2/(4·cosθo·cosθi). What goes in, and out, is what those let
 /// through at that angle, T(θ), the share that rough glass transmits; it stands in a table. So is Mitsuba's model.
 ///
-/// What one microfacet sends to another is lost, as everywhere.
+/// Rough plastic. Light that one microfacet sends to another is lost, as everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoughPlastic {
     pub base: Base,

@@ -1,4 +1,4 @@
-//! What every lobe does.
+//! The contract of every lobe.
 //!
 //! All directions have unit length and point away from the surface; wo is where the light goes (back along the path), wi where it
 //! comes from.

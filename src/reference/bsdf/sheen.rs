@@ -7,7 +7,8 @@ use crate::scene::material::{AlbedoTable, sheen_distribution, sheen_lambda};
 /// The sheen of KHR_materials_sheen: c·D·G/(4·cosθo·cosθi) by the distribution and the shadowing of Estevez and Kulla (2017), without Fresnel's
 /// reflectance. What lies below gets 1 − max c·E, E the share of light that white fibres reflect, by the larger of those of wo and wi.
 ///
-/// Where the fit of the shadowing makes E more than 1, at grazing angles of narrow fibres, all is divided by it: they give back what arrives.
+/// Fibres on a surface. The fit of their shadowing makes E more than 1 at grazing angles of narrow fibres;
+/// there all is divided by it, so that they give back what arrives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sheen {
     pub color: DVec3,

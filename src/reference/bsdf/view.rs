@@ -26,11 +26,11 @@ pub struct View {
     pub hemisphere: HemisphereSampling,
     /// The directions in which texture coordinates grow, where they do.
     pub tangents: Option<Tangents>,
-    /// The same of the second ones; of what has one set, of that.
+    /// Tangents by the second texture coordinates, or by the only ones.
     second_tangents: Option<Tangents>,
     /// The shading normal before a map bent it, where it shadows the bent one.
     unbent_normal: Option<DVec3>,
-    /// The same on the front side, where coats lie about it.
+    /// The unbent normal on the front side, where coats lie about it.
     coat_normal: Option<DVec3>,
 }
 
@@ -71,7 +71,8 @@ impl View {
         Frame::around(towards(self.wo, self.geometric_normal, bent.unwrap_or(normal)))
     }
 
-    /// As a map bends the normal that mirrors what it bends away from wo, instead of leaving it to the geometric normal. The unbent normal is known.
+    /// The view by a bent normal of a map with mirroring: a normal that is bent away from wo is mirrored
+    /// about the unbent normal, which is known, instead of being replaced by the geometric one.
     pub fn with_mirrored_normal(self, bent: DVec3) -> Self {
         let Some(unbent) = self.unbent_normal else { return self };
         let normal = if bent.dot(self.geometric_normal) < 0.0 { -bent } else { bent };
@@ -82,7 +83,8 @@ impl View {
         Self { frame: Frame::around(mirrored), ..self }
     }
 
-    /// What is left of light between wo and `wi` where a map bent the normal (Estevez, Lecocq and Stein 2019): 1 where none did.
+    /// Share of light between wo and `wi` that is left where a map bent the normal (Estevez, Lecocq and Stein
+    /// 2019): 1 where none did.
     pub fn shadowing(&self, wi: DVec3) -> f64 {
         let Some(unbent) = self.unbent_normal else { return 1.0 };
         let squared_tangent = |direction: DVec3| {
@@ -113,7 +115,7 @@ impl View {
         }
     }
 
-    /// The same, turned about the normal: its x is `direction`, along the tangent and across it towards the side where v grows.
+    /// The frame of facets, turned about the normal: its x is `direction`, along the tangent and across it towards the side where v grows.
     pub(super) fn turned_facet_frame(&self, anisotropic: bool, direction: DVec2) -> Frame {
         let frame = self.facet_frame(anisotropic);
         if !anisotropic {
@@ -127,12 +129,12 @@ impl View {
         self.frame.normal
     }
 
-    /// Whether light from `wi` can be reflected to wo: on the same side, by the true and by the interpolated surface.
+    /// Says that light from `wi` can be reflected to wo: on the same side, by the true and by the interpolated surface.
     pub fn reflects(&self, wi: DVec3) -> bool {
         wi.dot(self.geometric_normal) > 0.0 && wi.dot(self.normal()) > 0.0
     }
 
-    /// Whether light from `wi` can come through to wo: on the other side, by the true and by the interpolated surface.
+    /// Says that light from `wi` can come through to wo: on the other side, by the true and by the interpolated surface.
     pub(super) fn transmits(&self, wi: DVec3) -> bool {
         wi.dot(self.geometric_normal) < 0.0 && wi.dot(self.normal()) < 0.0
     }
@@ -160,7 +162,7 @@ mod tests {
         let away = view(leaning(-80.0), leaning(30.0));
         assert_eq!(away.normal(), DVec3::Z);
         assert!((away.with_mirrored_normal(leaning(30.0)).normal() - leaning(-30.0)).length() < 1e-15);
-        // What looks at the viewer stays as it is.
+        // A normal that looks at the viewer stays as it is.
         let towards = view(leaning(-50.0), leaning(30.0));
         assert_eq!(towards.with_mirrored_normal(leaning(30.0)), towards);
     }

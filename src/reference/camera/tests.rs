@@ -32,7 +32,7 @@ fn parallel_rays_start_on_the_window() {
     }
 }
 
-/// Where rays of one film position cross a plane `depth` before the camera.
+/// The point at which rays of one film position cross a plane `depth` before the camera.
 fn crossing(camera: &ProjectiveCamera, film: [f64; 2], lens: DVec2, depth: f64) -> DVec3 {
     let ray = camera.ray(film[0], film[1], lens, 0.0);
     ray.origin + ray.direction * ((5.0 - depth - ray.origin.z) / ray.direction.z)
@@ -65,7 +65,7 @@ const SHAPES: [ApertureShape; 5] = [
     ApertureShape::Polygon { blades: 64, rotation_degrees: -400.0 },
 ];
 
-/// Whether a point is inside, by the shape's definition: for a polygon, on the inner side of every edge.
+/// Says that a point is inside, by the shape's definition: for a polygon, on the inner side of every edge.
 fn is_inside(shape: ApertureShape, point: DVec2) -> bool {
     match shape {
         ApertureShape::Disk => point.length_squared() <= 1.0,

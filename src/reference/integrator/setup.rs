@@ -59,13 +59,14 @@ impl Integrator {
         &self.scene
     }
 
-    /// Where the camera stands, relative to the scene's center, and where it looks.
+    /// The camera's place, relative to the scene's center, and the direction in which it looks.
     pub fn view_axis(&self) -> [DVec3; 2] {
         let camera = &self.scene.camera;
         [camera.position, -camera.frame()[2]]
     }
 
-    /// What the ray through the middle of a pixel and of the lens meets when the shutter opens.
+    /// The owner of the surface that the ray through the middle of a pixel and of the lens meets when the
+    /// shutter opens.
     pub fn owner_at_centre(&self, x: u32, y: u32) -> Option<Owner> {
         let ray = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, DVec2::ZERO, 0.0);
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
@@ -101,12 +102,12 @@ impl Integrator {
         });
     }
 
-    /// What lights are chosen from.
+    /// The lights that are sampled.
     pub fn lights(&self) -> &Lights {
         &self.lights
     }
 
-    /// What was learned of lights that are chosen by cells; None where they are chosen otherwise.
+    /// The cells by which lights are chosen; None where they are chosen otherwise.
     pub fn light_cells(&self) -> Option<&Arc<LightCells>> {
         self.lights.in_cells().filter(|_| self.lights.way() == LightWay::Cells).map(|(choice, _)| &choice.cells)
     }
@@ -116,9 +117,9 @@ impl Integrator {
         self.lights.set_cells(learned);
     }
 
-    /// What a light brings to a point of a surface when the shutter opens: an estimate by two random numbers
-    /// of the integral of luminance and cosine, without what stands in between and with it. No normal:
-    /// whatever the cosine.
+    /// Light that one of the lights brings to a point of a surface when the shutter opens: an estimate, by two
+    /// random numbers, of the integral of luminance and cosine, without what stands in between and with it.
+    /// Without a normal the cosine counts as 1.
     pub fn light_reaching(&self, (from, normal): (LitPoint, DVec3), chosen: (usize, f64), numbers: [u32; 2]) -> [f64; 2] {
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
         let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), from, chosen, numbers) else {
@@ -143,13 +144,13 @@ impl Integrator {
         std::mem::replace(&mut self.scene.render.max_depth, max_depth)
     }
 
-    /// Of all surfaces.
+    /// Primitives of all surfaces.
     pub fn primitive_count(&self) -> usize {
         self.world.indices_in_scene_order().len()
     }
 
-    /// Of lights that can be drawn from by solid angle as well as by area, what takes most to be drawn so.
-    /// None: there are none.
+    /// The costliest outline of a light whose points can be drawn by solid angle as well as by area. None: there
+    /// is no such light.
     pub fn costliest_outline(&self) -> Option<Outline> {
         self.lights.costliest_outline(&self.scene, &self.world)
     }

@@ -1,4 +1,4 @@
-//! What rays meet: the pieces that shapes are made of.
+//! Elements, which rays meet: the pieces that shapes are made of.
 
 use std::fmt::Debug;
 
@@ -70,12 +70,12 @@ pub trait Element: Debug + Send + Sync {
         self.sample_area(0.5, 0.5).map(|(point, _)| point.normal)
     }
 
-    /// What it is where points of it can be drawn by solid angle as well as by area, at rest.
+    /// The flat outline of an element whose points can be drawn by solid angle as well as by area, at rest.
     fn flat(&self) -> Option<Flat> {
         None
     }
 
-    /// As it is seen from `from`, where its points are drawn by solid angle.
+    /// The element as it is seen from `from`, where its points are drawn by solid angle.
     fn seen(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3) -> Option<Seen> {
         if pose.is_some() || strategy != LightSampling::Cone {
             return None;
@@ -101,7 +101,7 @@ pub trait Element: Debug + Send + Sync {
         self.seen(pose, strategy, from).map_or(1.0, |seen| seen.magnifies())
     }
 
-    /// Whether the element itself stands between `from` and a point of it.
+    /// Says that the element itself stands between `from` and a point of it.
     fn hides(&self, _from: DVec3, _point: &SurfacePoint) -> bool {
         false
     }

@@ -40,7 +40,7 @@ impl PreparedRay {
         DVec3::new(p[first] - self.shear[0] * p[last], p[second] - self.shear[1] * p[last], p[last])
     }
 
-    /// Where the ray enters the box, if it meets it in [0, limit]. Errs on the side of a hit: a rounding bound for the three
+    /// The distance at which the ray enters the box, if it meets it in [0, limit]. Errs on the side of a hit: a rounding bound for the three
     /// operations of each slab (Ize 2013) widens the exit.
     #[inline]
     fn enter(&self, node: &Node, limit: f64) -> Option<f64> {

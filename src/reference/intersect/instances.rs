@@ -18,7 +18,7 @@ pub struct Instances {
     placed: Vec<Placed>,
     groups: Vec<Group>,
     motions: Vec<Motion>,
-    /// Those of the scene, behind which instances are numbered.
+    /// Number of the scene's shapes, behind which instances are numbered.
     shapes: usize,
 }
 
@@ -52,7 +52,7 @@ struct Group {
 pub struct PlacedTriangle<'a> {
     pub triangle: &'a Triangle,
     pub mesh: &'a MeshData,
-    /// Of the mesh.
+    /// Face of the mesh.
     pub face: usize,
     pub pose: Pose,
 }

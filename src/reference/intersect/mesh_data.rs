@@ -1,4 +1,4 @@
-//! What shading looks up of meshes.
+//! Data of meshes that shading looks up.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::shape::Triangle;
 use crate::scene::{Geometry, Mesh, Shape};
 use crate::texture::Coordinates;
 
-/// What shading needs of a shape besides its primitives; nothing where it is no mesh.
+/// Data that shading needs of a shape besides its primitives; empty where it is no mesh.
 #[derive(Debug, Clone, Default)]
 pub struct MeshData {
     /// World-space vertex normals of a smooth mesh, else empty.
@@ -42,7 +42,7 @@ impl MeshData {
         self.corners(&self.mesh.as_ref()?.uvs, face)
     }
 
-    /// The same of both sets; the first stands for a second that there is not.
+    /// Both sets of texture coordinates at the corners; the first stands for a second that there is not.
     pub fn coordinates_of_corners(&self, face: usize) -> Option<[Coordinates; 3]> {
         let first = self.uv_corners(face)?;
         let second = self.corners(&self.mesh.as_ref()?.second_uvs, face).unwrap_or(first);

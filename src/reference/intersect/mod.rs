@@ -1,4 +1,4 @@
-//! Where rays meet surfaces, in f64.
+//! Hits of rays and surfaces, in f64.
 
 mod element;
 mod hierarchy;

@@ -13,12 +13,12 @@ use crate::texture::{self, Coordinates};
 pub struct Tangents {
     pub along_u: DVec3,
     pub along_v: DVec3,
-    /// What both are to be divided by to be how far points move with u and v.
+    /// Divisor of both: divided by it, they are how far points move with u and v.
     pub uv_area: f64,
 }
 
 impl Tangents {
-    /// Of the linear map from a triangle's uvs to its corners. None where the uvs span no area.
+    /// Tangents of the linear map from a triangle's uvs to its corners. None where the uvs span no area.
     pub fn of_triangle([a, b, c]: [DVec3; 3], [uv_a, uv_b, uv_c]: [DVec2; 3]) -> Option<Self> {
         let ((edge_b, edge_c), (uv_b, uv_c)) = ((b - a, c - a), (uv_b - uv_a, uv_c - uv_a));
         let determinant = uv_b.perp_dot(uv_c);
@@ -31,7 +31,7 @@ impl Tangents {
         })
     }
 
-    /// Of directions alone.
+    /// Tangents that are directions alone.
     pub fn along(along_u: DVec3, along_v: DVec3) -> Self {
         Self { along_u, along_v, uv_area: 1.0 }
     }
@@ -63,7 +63,7 @@ pub enum UvSet {
     Second,
 }
 
-/// What a normal map has at a point.
+/// The texel of a normal map at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NormalTexel {
     pub texel: DVec3,
@@ -100,7 +100,7 @@ impl NormalMaps {
         Self { textures: if any { scene.textures.clone() } else { Vec::new() }, of_material }
     }
 
-    /// What the normals that the material's map bends reflect is shadowed by the surface.
+    /// Says that the shadowing term of bent normals applies to the material's map.
     pub fn shadows(&self, material: MaterialId) -> bool {
         self.of_material[material].is_some_and(|texture| self.textures[texture].shadows_bent_normals)
     }

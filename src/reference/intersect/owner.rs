@@ -15,7 +15,7 @@ pub enum SurfaceId {
     Infinite(usize),
 }
 
-/// Where a primitive comes from.
+/// The origin of a primitive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Owner {
     /// Index into the scene's shapes.

@@ -1,4 +1,4 @@
-//! Where moving shapes are at one time.
+//! Places of moving shapes at one time.
 //!
 //! A moving primitive is met in its rest space, where it is at shutter time 0: the ray is taken there by the inverse of the shape's
 //! motion, and what it meets is brought back. The ray's direction keeps the length that the inverse gives it, so distances along it are
@@ -86,12 +86,12 @@ impl Pose {
         SurfacePoint { error: moved.error + carried, ..moved }
     }
 
-    /// Where a point at rest is.
+    /// The place of a point that is given at rest.
     pub fn place(&self, at_rest: DVec3) -> DVec3 {
         self.to_world.transform_point3(at_rest)
     }
 
-    /// Where a point in the world is at rest.
+    /// The place at rest of a point that is given in the world.
     pub fn place_at_rest(&self, point: DVec3) -> DVec3 {
         self.to_rest.transform_point3(point)
     }
@@ -101,7 +101,8 @@ impl Pose {
         self.to_world.matrix3.x_axis.length()
     }
 
-    /// What the area of a flat piece of surface with this normal in the world has been multiplied by (Nanson's formula).
+    /// The factor by which the motion multiplied the area of a flat piece of surface with this normal in the
+    /// world (Nanson's formula).
     pub fn area_factor(&self, normal: DVec3) -> f64 {
         self.to_world.matrix3.determinant().abs() / (self.to_world.matrix3.transpose() * normal).length()
     }
@@ -113,7 +114,7 @@ pub fn swept(shape: &Shape, bounds: [DVec3; 2], shutter: [f64; 2]) -> [DVec3; 2]
     shape.motion.as_ref().map_or(bounds, |motion| swept_by(motion, shape.origin(), bounds, shutter))
 }
 
-/// The same of whatever moves about `origin`.
+/// The box that a box sweeps while it moves about `origin`.
 pub fn swept_by(motion: &Motion, origin: DVec3, [min, max]: [DVec3; 2], [open, close]: [f64; 2]) -> [DVec3; 2] {
     let corner = |index: usize| DVec3::select(glam::BVec3::new(index & 1 != 0, index & 2 != 0, index & 4 != 0), max, min);
     let radius = (0..8).map(|index| (corner(index) - origin).length()).fold(0.0, f64::max);

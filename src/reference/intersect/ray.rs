@@ -24,7 +24,7 @@ impl Ray {
     }
 }
 
-/// Where on a primitive a point lies, in the primitive's own coordinates: along the two edges of a parallelogram, the weights of the
+/// A point's place on a primitive, in the primitive's own coordinates: along the two edges of a parallelogram, the weights of the
 /// second and third vertex of a triangle, unused elsewhere.
 pub type Local = DVec2;
 

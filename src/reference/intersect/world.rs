@@ -35,16 +35,16 @@ pub struct Surface {
     pub shading_normal: DVec3,
     /// The normal before that, where it shadows the bent one.
     pub unbent_normal: Option<DVec3>,
-    /// The same where a coat lies about this normal, or about what its own map makes of it.
+    /// The shading normal where a coat lies about it, or about what the coat's own map makes of it.
     pub coat_normal: Option<DVec3>,
-    /// Where it is bent away from the viewer, it is mirrored about the normal before that.
+    /// A normal that is bent away from the viewer is mirrored about the normal before that.
     pub is_mirrored: bool,
     pub uv: DVec2,
-    /// Of a mesh that has second ones.
+    /// The second texture coordinates, of a mesh that has them.
     pub second_uv: Option<DVec2>,
     /// The directions in which texture coordinates grow, where the material depends on them and there are some.
     pub tangents: Option<Tangents>,
-    /// The same of the second ones of a mesh that has two.
+    /// The directions of the second texture coordinates, of a mesh that has them.
     pub second_tangents: Option<Tangents>,
     /// A ray of the camera met it that nothing has scattered.
     pub by_camera: bool,
@@ -69,7 +69,7 @@ pub struct World {
     owners: Vec<Owner>,
     /// Leaf-order indices of the primitives, in the order of the scene file.
     scene_order: Vec<usize>,
-    /// What has no bounds.
+    /// Primitives without bounds.
     infinite: Vec<(Primitive, Owner)>,
     instances: Instances,
     shapes: Vec<MeshData>,
@@ -210,7 +210,7 @@ impl World {
         closest
     }
 
-    /// What the ray meets before `limit`, each primitive once.
+    /// All hits before `limit`, each primitive once.
     pub fn hits_before(&self, ray: Ray, limit: f64, time: &PathTime) -> Vec<Hit> {
         let prepared = PreparedRay::new(ray);
         let mut hits = Vec::new();

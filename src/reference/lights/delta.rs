@@ -6,7 +6,7 @@ use glam::DVec3;
 
 /// Such a light.
 pub trait DeltaLight: Debug + Send + Sync {
-    /// What arrives at a point. None where nothing does.
+    /// Light that arrives at a point. None where none does.
     fn arriving(&self, point: DVec3) -> Option<Arriving>;
 }
 

@@ -145,7 +145,7 @@ fn maps_lie_where_the_contract_says() {
     }
     assert_eq!(columns.radiance(DVec3::Y).y, 0.0);
     assert_eq!(columns.radiance(-DVec3::Y).y, 3.0);
-    // What is seen along +x without rotation is seen along −z when turned by 90 degrees.
+    // A rotation by 90 degrees shows along −z what is otherwise seen along +x.
     let turned = map(8, 4, 90.0, |x, y| Vec3::new(x as f32, y as f32, 0.0));
     assert!((turned.radiance(-DVec3::Z) - columns.radiance(DVec3::X)).length() < 1e-9);
     assert!((turned.radiance(DVec3::Z) - columns.radiance(DVec3::X)).length() > 1.0);

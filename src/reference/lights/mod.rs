@@ -77,10 +77,11 @@ pub struct Lights {
     group_count: usize,
     way: LightWay,
     table: AliasTable,
-    /// Of several lights inside the scene, where they may be chosen by it or by cells, which are learned by its help. Those at infinity have the
+    /// The tree of several lights inside the scene, where they may be chosen by it or by cells, which are
+    /// learned by its help. Lights at infinity have the
     /// probabilities of the table all the same.
     tree: Option<LightTree>,
-    /// Where lights may be chosen by them.
+    /// The choice by cells, where lights may be chosen by them.
     cells: Option<LightCellChoice>,
     /// Index into `lights` by leaf-order index of the primitive.
     of_primitive: Vec<Option<u32>>,
@@ -179,7 +180,7 @@ impl Lights {
         }
     }
 
-    /// What points of a primitive are drawn by, where that is not evenly.
+    /// The density by which points of a primitive are drawn, where that is not even.
     fn warp(&self, world: &World, index: usize) -> Option<(Unrolled, &HierarchicalWarp)> {
         if self.warps.is_empty() {
             return None;
@@ -274,7 +275,8 @@ impl Lights {
         self.sampling = sampling;
     }
 
-    /// Of those that can be drawn from by solid angle as well as by area, what takes most to be drawn so. None: there are none.
+    /// The costliest outline of a light whose points can be drawn by solid angle as well as by area. None:
+    /// there is no such light.
     pub fn costliest_outline(&self, scene: &Scene, world: &World) -> Option<Outline> {
         let opening = PathTime::new(scene, 0.0);
         let outline = |light: &SampledLight| match *light {
@@ -304,7 +306,7 @@ impl Lights {
         self.sample_light(scene, moment, from, self.choose(from, choice), numbers)
     }
 
-    /// As [`Lights::sample`], of a light that was chosen with a probability.
+    /// [`Lights::sample`] for a light that was chosen with a probability.
     pub fn sample_light(
         &self,
         scene: &Scene,
@@ -404,12 +406,13 @@ impl Lights {
     }
 }
 
-/// As [`mean_exitance`], of the part of a material that lies between these texture coordinates; None: nothing more is known of it.
+/// [`mean_exitance`] for the part of a material that lies between these texture coordinates; None: nothing
+/// more is known of it.
 fn exitance_of_part(maps: &EmissionMaps, (material, two_sided): (MaterialId, bool), part: &LampPart) -> Option<f64> {
     Some(PI * maps.luminance(material, part)? * if two_sided { 2.0 } else { 1.0 })
 }
 
-/// What the tree knows of the lights inside the scene, in their order; the surfaces among them are these primitives.
+/// The lights inside the scene for the tree, in their order; the surfaces among them are these primitives.
 fn emitters(scene: &Scene, world: &World, indices: &[usize], surfaces: &[EmittingSurface]) -> Vec<Emitter> {
     let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
     let of_surface = |(&index, &EmittingSurface { shape, material, power }): (&usize, &EmittingSurface)| {

@@ -12,7 +12,7 @@ use crate::sampling::sampler::uniform;
 /// Everything outside the scene.
 #[derive(Debug, Clone)]
 pub enum Outside {
-    /// The same from everywhere; black where there is no environment.
+    /// Equal radiance from everywhere; black where there is no environment.
     Constant(DVec3),
     Varying(Arc<dyn Environment>),
 }

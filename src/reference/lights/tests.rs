@@ -75,7 +75,7 @@ const REFERENCES: [DVec3; 4] =
 
 const STRATEGIES: [LightSampling; 3] = [LightSampling::Cone, LightSampling::Visible, LightSampling::Area];
 
-/// What a light's sampling states is what the map does, and what following a ray to the same point finds.
+/// A light's sampling states the density that the map has, and that following a ray to the same point finds.
 #[test]
 fn densities_of_light_samples_are_right() {
     for (geometry, strategy) in
@@ -95,7 +95,7 @@ fn densities_of_light_samples_are_right() {
                 let (wi, pdf) = (direction.wi, direction.pdf_solid_angle);
                 seen += 1;
                 let by_map = density_by_differences(map, [u1, u2]);
-                // Where points are drawn, the map folds at the sphere's silhouette.
+                // The map of points folds at the sphere's silhouette.
                 let grazes = strategy != LightSampling::Cone && (by_map.is_nan() || pdf > 10.0);
                 assert!(grazes || (1.01 * pdf / by_map - 1.0).abs() > 5e-3, "1 % too much would pass");
                 assert!(

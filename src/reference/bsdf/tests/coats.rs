@@ -18,7 +18,7 @@ fn principled(keys: &str) -> Lobe {
     .expect("it scatters")
 }
 
-/// The same with a map of the coat's own that has this texel here.
+/// The lobe with a map of the coat's own that has this texel here.
 fn mapped(lobe: Lobe, texel: Option<NormalTexel>) -> Lobe {
     let Lobe::Principled(principled) = lobe else { panic!("it is no principled lobe") };
     Lobe::Principled(super::super::principled::Principled { coat_texel: texel, ..principled })

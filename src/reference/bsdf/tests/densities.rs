@@ -1,4 +1,4 @@
-//! Whether samples follow the densities that are stated.
+//! Samples follow the densities that are stated.
 
 use rayon::prelude::*;
 
@@ -52,7 +52,7 @@ fn samples_follow_their_densities() {
     let level = sidak(0.01, surfaces.len());
     let most = if in_full("100,000 directions of every surface instead of 30,000") { 100_000 } else { 30_000 };
     surfaces.par_iter().enumerate().for_each(|(seed, (name, bsdf))| {
-        // Where the horizon cuts a tilted lobe, its density jumps, and integrating it takes long.
+        // The density of a tilted lobe jumps where the horizon cuts it, and integrating it takes long.
         let samples = if name.ends_with(TILTED) { most / 5 } else { most };
         let report = follow(bsdf, (seed as u64) << 32, samples);
         assert!(report.passes(level), "{name}: {report:?}");
@@ -130,7 +130,7 @@ fn maps_have_the_jacobian_of_their_density() {
     }
 }
 
-/// What a sample says of itself is what evaluating its direction says.
+/// A sample states the value and the density that evaluating its direction gives.
 #[test]
 fn sampled_weights_are_value_over_density() {
     for (name, bsdf) in surfaces() {

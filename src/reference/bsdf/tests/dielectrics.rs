@@ -52,7 +52,7 @@ fn total_reflection_leaves_nothing_to_transmit() {
     }
 }
 
-/// Where nothing bends, light goes straight through rough glass.
+/// Light goes straight through rough glass that does not bend it.
 #[test]
 fn rough_glass_of_ior_one_is_not_there() {
     let kind = MaterialKind::RoughGlass {

@@ -47,7 +47,7 @@ fn a_texture_of_one_direction_is_a_rotation() {
             assert!(apart > 1e-3, "5 degrees more look alike");
         }
     }
-    // What has no direction is as u.
+    // A texel without a direction means that of u.
     let keys = "anisotropy = 0.6";
     assert_eq!(brushed(DVec3::splat(0.5), true, keys), brushed(DVec3::ONE, false, keys));
 }

@@ -9,7 +9,8 @@ fn reflected_radiance(bsdf: &Bsdf, seed: u64) -> [Moments; 3] {
     estimate(seed, |[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2).map_or(DVec3::ZERO, |sample| sample.weight))
 }
 
-/// The same with refraction's scaling of radiance, 1/eta², made good: the share of power that is scattered. For a single material.
+/// The share of power that a single material scatters: its mean weight with refraction's scaling of radiance,
+/// 1/eta², made good.
 fn albedo(bsdf: &Bsdf, seed: u64) -> [Moments; 3] {
     estimate(seed, |[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2).map_or(DVec3::ZERO, |s| s.weight * s.eta * s.eta))
 }
@@ -226,7 +227,7 @@ fn sheen_takes_what_it_reflects() {
     }
 }
 
-/// As the width goes to 0, rough metal and rough glass go over into the smooth ones: the same shares, in the same directions.
+/// Rough metal and rough glass become the smooth ones as the width goes to 0: the same shares, in the same directions.
 #[test]
 fn narrow_lobes_meet_the_delta_lobes() {
     let pairs = [(gold(2e-4), gold(0.0)), (rough_glass(tinted(1.5), 2e-4), glass(tinted(1.5)))];

@@ -107,7 +107,8 @@ fn the_narrow_direction_is_the_tangent() {
     assert!(value(FRAC_PI_2) > 10.0 * value(0.0));
 }
 
-/// What microfacets of a plate reflect and let through is what those of a white metal reflect: between them nothing else is lost.
+/// Microfacets of a plate reflect and let through as much light as those of a white metal reflect: between
+/// them nothing else is lost.
 #[test]
 fn rough_plates_lose_what_metals_lose() {
     let count = if in_full("200,000 directions of rough plates instead of 100,000") { 200_000 } else { 100_000 };

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 use rectangle::SeenRectangle;
 use triangle::SeenTriangle;
 
-/// What can be drawn by solid angle, from what takes least on.
+/// Outlines that can be drawn by solid angle; the one that takes least comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Outline {
     Rectangle,

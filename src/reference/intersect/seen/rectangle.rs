@@ -20,7 +20,7 @@ pub struct SeenRectangle {
 }
 
 impl SeenRectangle {
-    /// Of a corner and perpendicular edges. None where its points are better drawn by area.
+    /// The rectangle of a corner and perpendicular edges. None where its points are better drawn by area.
     pub fn new(from: DVec3, corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Option<Self> {
         let (width, height) = (edge_u.length(), edge_v.length());
         let (x, y) = (edge_u / width, edge_v / height);

@@ -1,6 +1,6 @@
 //! Triangles as they are seen from a point: directions uniform over their solid angle.
 //!
-//! As in Arvo 1995 and Peters 2021, a corner slides along the last edge until the part up to there has the share of the solid angle that
+//! A corner slides, as in Arvo 1995 and Peters 2021, along the last edge until the part up to there has the share of the solid angle that
 //! is drawn, and a direction on the arc to the second corner is uniform in its cosine. Here all angles are tangents of their halves,
 //! found from the edges and never as a difference of angles or of directions. So relative errors are those of the arithmetic, however
 //! small the triangle is seen.
@@ -17,7 +17,7 @@ pub struct SeenTriangle {
     edge_v: DVec3,
     /// Distances of a, b and c.
     distances: [f64; 3],
-    /// Of half the angle between a and c.
+    /// Tangent of half the angle between a and c.
     tangent: f64,
     /// 1 + a·b.
     one_and_cosine: f64,
@@ -30,7 +30,7 @@ pub struct SeenTriangle {
 }
 
 impl SeenTriangle {
-    /// Of a corner and the edges that begin there. None where its points are better drawn by area.
+    /// The triangle of a corner and the edges that begin there. None where its points are better drawn by area.
     pub fn new(from: DVec3, corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Option<Self> {
         let to_corner = corner - from;
         let (to_b, to_c) = (to_corner + edge_u, to_corner + edge_v);
@@ -78,7 +78,7 @@ impl SeenTriangle {
     }
 }
 
-/// Of an angle whose sine and cosine are these over `length`.
+/// Tangent of half an angle whose sine and cosine are these over `length`.
 fn half_angle_tangent(sine: f64, cosine: f64, length: f64) -> f64 {
     if cosine < 0.0 { (length - cosine) / sine } else { sine / (length + cosine) }
 }

@@ -98,7 +98,8 @@ impl Element for Cylinder {
         None
     }
 
-    /// Of the two crossings of the line through both points, one is the point itself, at 1. Their product tells the other, which is in the
+    /// One of the two crossings of the line through both points is the point itself, at 1. Their product
+    /// tells the other, which is in the
     /// way if it lies between and on the wall. Where the line all but touches the wall, the two are closer than shadow rays come to what they
     /// go to: those end before a light by their errors in single precision, and the point counts as seen.
     fn hides(&self, from: DVec3, point: &SurfacePoint) -> bool {
@@ -132,8 +133,8 @@ impl Cylinder {
         (height, place - self.axis * height)
     }
 
-    /// Where a device's shadow ray along `way` ends before a point with this normal, as a share of the way: `area_light_sample` in
-    /// `shaders/shading/light/sampling.wgsl`.
+    /// The share of `way` after which a shadow ray to a point with this normal ends, as kernels end it:
+    /// `area_light_sample` in `shaders/shading/light/area_light.wgsl`.
     fn end_of_shadow_ray(&self, way: DVec3, normal: DVec3) -> f64 {
         let error = POINT_ERROR * normal.abs().dot(self.from.abs() + self.axis.abs() + self.radius);
         let along_normal = way.dot(normal).abs();

@@ -1,4 +1,4 @@
-//! Where a shape stands.
+//! The placement of a shape.
 
 use glam::{DAffine3, DVec3};
 

@@ -1,4 +1,4 @@
-//! What all shapes are made of.
+//! Primitives, which all shapes are made of.
 
 use std::sync::Arc;
 

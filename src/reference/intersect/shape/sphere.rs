@@ -61,7 +61,7 @@ impl Element for Sphere {
         Some(Unrolled::Sphere)
     }
 
-    /// Those of [`warp::uniform_sphere`].
+    /// The numbers by which [`warp::uniform_sphere`] draws the place.
     fn numbers_of_place(&self, pose: Option<&Pose>, place: DVec2) -> DVec2 {
         let (height, turn) = (2.0 * place.y - 1.0, TAU * place.x);
         let across = (1.0 - height * height).max(0.0).sqrt();
@@ -107,7 +107,7 @@ impl Element for Sphere {
 }
 
 impl Sphere {
-    /// It is scaled by the same factor along every axis.
+    /// The sphere in motion, which scales it by the same factor along every axis.
     fn moved(&self, pose: Option<&Pose>) -> Self {
         pose.map_or(*self, |pose| Self { center: pose.place(self.center), radius: self.radius * pose.scale(), ..*self })
     }
