@@ -76,7 +76,6 @@ fn child_entries(words: NodeWords) -> vec4<u32> {
     return select(leaf_entry, inner_rank + words.w1.x, inner);
 }
 
-#if PACKETS
 // One of them, an inner child as the index of its first word. An inner child's leaf size is 0, and counts no primitive.
 fn child_entry(words: NodeWords, child: u32) -> u32 {
     let flags = words.w0.w >> 24u;
@@ -87,4 +86,3 @@ fn child_entry(words: NodeWords, child: u32) -> u32 {
     let leaf_entry = start | (((sizes >> (2u * child)) & 3u) << 24u) | LEAF;
     return select(leaf_entry, first_word_of_node(inner_before + words.w1.x), ((flags >> child) & 1u) != 0u);
 }
-#endif

@@ -67,9 +67,14 @@ struct Placement {
 #endif
 }
 
-fn instance_placement(instance: u32) -> Placement {
+fn no_placement() -> Placement {
     var placement: Placement;
     placement.material = NONE;
+    return placement;
+}
+
+fn instance_placement(instance: u32) -> Placement {
+    var placement = no_placement();
     if instance != NONE {
         placement.exists = true;
         placement.words = instance_words(instance);
@@ -89,19 +94,19 @@ fn instance_placement(instance: u32) -> Placement {
 fn placed_vector(placement: Placement, v: vec3<f32>) -> vec3<f32> {
     let words = placement.words;
     let turned = v * mat3x3<f32>(words.w3.xyz, words.w4.xyz, words.w5.xyz);
-#if MOTION
-    return placement.motion.linear * turned;
-#else
-    return turned;
-#endif
+    if HAS_MOTION {
+        return placement.motion.linear * turned;
+    } else {
+        return turned;
+    }
 }
 
 fn placed_point(placement: Placement, p: vec3<f32>) -> vec3<f32> {
-#if MOTION
-    return (placed_vector(placement, p) + placement.motion.place) + instance_place(placement.words);
-#else
-    return placed_vector(placement, p) + instance_place(placement.words);
-#endif
+    if HAS_MOTION {
+        return (placed_vector(placement, p) + placement.motion.place) + instance_place(placement.words);
+    } else {
+        return placed_vector(placement, p) + instance_place(placement.words);
+    }
 }
 
 // What rounding of placed points is relative to beside their own magnitudes, of a ray's way to the group's space and back as well. The place adds
@@ -112,11 +117,11 @@ fn placed_magnitude(placement: Placement, size: vec3<f32>) -> vec3<f32> {
     let back = mat3x3<f32>(abs(words.w0.xyz), abs(words.w1.xyz), abs(words.w2.xyz));
     let there = size * forward;
     let magnitude = 0.5 * (there + (there * back) * forward);
-#if MOTION
-    return moved_magnitude(placement.motion, magnitude);
-#else
-    return magnitude;
-#endif
+    if HAS_MOTION {
+        return moved_magnitude(placement.motion, magnitude);
+    } else {
+        return magnitude;
+    }
 }
 
 // By the inverse transpose, of length 1, on the side of the surface on which it is in the group; 0 stays 0: no normal.
@@ -126,9 +131,9 @@ fn placed_normal(placement: Placement, n: vec3<f32>) -> vec3<f32> {
     }
     let words = placement.words;
     let turned = mat3x3<f32>(words.w0.xyz, words.w1.xyz, words.w2.xyz) * n;
-#if MOTION
-    return normalize(moved_normal(placement.motion, turned));
-#else
-    return normalize(turned);
-#endif
+    if HAS_MOTION {
+        return normalize(moved_normal(placement.motion, turned));
+    } else {
+        return normalize(turned);
+    }
 }

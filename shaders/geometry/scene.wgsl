@@ -9,11 +9,11 @@
 #endif
 
 fn primitive_kind(word: f32) -> u32 {
-#if MOTION
-    return (bitcast<u32>(word) >> 28u) & 7u;
-#else
-    return bitcast<u32>(word) >> 28u;
-#endif
+    if HAS_MOTION {
+        return (bitcast<u32>(word) >> 28u) & 7u;
+    } else {
+        return bitcast<u32>(word) >> 28u;
+    }
 }
 
 fn primitive_material(word: f32) -> u32 {

@@ -26,8 +26,8 @@ fn intersect_stored(ray: PreparedRay, index: u32, words: PrimitiveWords, hit: pt
 #endif
     if found.x > 0.0 {
         *hit = world_hit(found.x, index, found.y, found.z);
-#if INSTANCES
-        (*hit).instance = ray.instance;
-#endif
+        if HAS_INSTANCES {
+            (*hit).instance = ray.instance;
+        }
     }
 }

@@ -73,7 +73,6 @@ fn is_finished(traversal: Traversal) -> bool {
     return !is_pending(traversal.pending);
 }
 
-#if INSTANCES
 // Goes on in the tree of an instance's group. What would have come next waits below the mark of the way back.
 fn enter_instance(traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>, instance: u32) {
     let pending = (*traversal).pending;
@@ -98,17 +97,16 @@ fn leave_instance(traversal: ptr<function, Traversal>) {
     (*traversal).ray = prepare_ray((*traversal).world);
     (*traversal).inverse_direction = safe_inverse((*traversal).world.direction);
 }
-#endif
 
 // Tests one primitive.
 fn test_primitive(traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>, primitive: u32) {
     let words = primitive_words(primitive);
-#if INSTANCES
-    if is_instance(words) {
-        enter_instance(traversal, stack, instance_number(words));
-        return;
+    if HAS_INSTANCES {
+        if is_instance(words) {
+            enter_instance(traversal, stack, instance_number(words));
+            return;
+        }
     }
-#endif
     var hit = (*traversal).hit;
     intersect_stored((*traversal).ray, primitive, words, &hit);
     (*traversal).hit = hit;
@@ -179,11 +177,11 @@ fn step_closest(traversal: ptr<function, Traversal>, stack: ptr<function, array<
 
 // The traversal's ray as it was begun.
 fn ray_in_world(traversal: ptr<function, Traversal>) -> Ray {
-#if INSTANCES
-    return (*traversal).world;
-#else
-    return Ray((*traversal).ray.origin, (*traversal).ray.direction);
-#endif
+    if HAS_INSTANCES {
+        return (*traversal).world;
+    } else {
+        return Ray((*traversal).ray.origin, (*traversal).ray.direction);
+    }
 }
 
 // One step of a shadow ray's traversal, which ends at the first surface that leaves no light.

@@ -1,4 +1,4 @@
-// What a hit is: position, normals, texture coordinates, material.
+// The surface at a hit: position, normals, texture coordinates, material.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/records.wgsl
@@ -22,12 +22,10 @@ struct Surface {
     // The shading normal on wo's side.
     shading_normal: vec3<f32>,
     uv: TextureCoordinates,
-    // wo is on the side where the normal points.
+    // wo is on the side to which the normal points.
     front: bool,
-#if WEIGHTS_BY_VIEWER
     // A ray of the camera met it that nothing has scattered.
     by_camera: bool,
-#endif
     // How far along its normal the true surface can lie from `position`.
     error: f32,
     material: u32,
@@ -36,33 +34,21 @@ struct Surface {
     // For densities of light sampling: area, or 0 for a sphere; center and radius of a sphere.
     area: f32,
     sphere: vec4<f32>,
-#if TANGENTS
-    // The directions in which texture coordinates grow, of any length; 0 where there are none.
+    // The directions in which texture coordinates grow, of any length, with TANGENTS; 0 where there are none.
     along_u: vec3<f32>,
     along_v: vec3<f32>,
-#endif
-#if NORMAL_SHADOWING
-    // The shading normal before a map bent it, where it shadows the bent one; else 0.
+    // With NORMAL_SHADOWING, the shading normal before a map bent it, if it shadows the bent one; else 0.
     unbent_normal: vec3<f32>,
-#endif
-#if COAT_NORMALS
-    // The shading normal before a map bent it, on the front side and of any length.
+    // With COAT_NORMALS, the shading normal before a map bent it, on the front side and of any length.
     coat_normal: vec3<f32>,
-#if SECOND_UVS
-    // The directions in which second texture coordinates grow; of what has one set, those of that.
+    // With COAT_NORMALS and SECOND_UVS, the directions in which second texture coordinates grow; those of the first where there is one set.
     second_along_u: vec3<f32>,
     second_along_v: vec3<f32>,
-#endif
-#endif
 }
 
-// How it is seen along `wo`.
+// How a surface is seen along `wo`.
 fn seen_along(surface: Surface, wo: vec3<f32>) -> Seen {
-    var seen = seen_by_light(clamp(dot(wo, surface.shading_normal), 0.0, 1.0), surface.front);
-#if WEIGHTS_BY_VIEWER
-    seen.by_camera = surface.by_camera;
-#endif
-    return seen;
+    return Seen(clamp(dot(wo, surface.shading_normal), 0.0, 1.0), surface.front, surface.by_camera);
 }
 
 // An interpolated or mapped normal on wo's side; the facing normal where there is none or wo is below its horizon.
@@ -75,39 +61,45 @@ fn shading_normal_towards(interpolated: vec3<f32>, facing_normal: vec3<f32>, wo:
     return select(facing_normal, shading_normal, dot(shading_normal, wo) > 0.0);
 }
 
-// The material of what a ray met.
+// The material of the primitive that a ray met.
 fn hit_material(hit: Hit) -> u32 {
-#if INSTANCES
-    if hit.instance != NONE {
+    if HAS_INSTANCES && hit.instance != NONE {
         let replacement = bitcast<u32>(instance_word(hit.instance, 1u).w);
         if replacement != NONE {
             return replacement;
         }
     }
-#endif
     return primitive_material(primitive_word(hit.primitive, 0u).w);
 }
 
 fn hit_surface(ray: Ray, hit: Hit) -> Surface {
-#if MOTION
-    let placed = placed_primitive(primitive_words(hit.primitive));
-    let words = PrimitiveWords(placed.p0, placed.p1, placed.p2);
-#else
-    let words = primitive_words(hit.primitive);
-#endif
-    let kind = primitive_kind(words.w0.w);
     let wo = -ray.direction;
-#if INSTANCES
+    var words = primitive_words(hit.primitive);
+    // The coordinates that rounding of the point is relative to, beyond the shape's own.
+    var moved = vec3<f32>(0.0);
+    if HAS_MOTION {
+        let placed = placed_primitive(words);
+        words = PrimitiveWords(placed.p0, placed.p1, placed.p2);
+        moved = placed.magnitude;
+    }
     let p0 = words.w0;
     let p1 = words.w1;
     let p2 = words.w2;
-    var material = primitive_material(p0.w);
-    let placement = instance_placement(hit.instance);
-    var magnitude = vec3<f32>(0.0);
+    let kind = primitive_kind(p0.w);
+    let first = bitcast<u32>(p2.w);
+    var surface: Surface;
+    surface.material = primitive_material(p0.w);
+    surface.light = bitcast<u32>(p1.w);
+
+    // The point of the shape.
     var point: ShapePoint;
-    if placement.exists {
+    var placement = no_placement();
+    if HAS_INSTANCES {
+        placement = instance_placement(hit.instance);
+    }
+    if HAS_INSTANCES && placement.exists {
         // Groups consist of triangles. Their edges are placed by themselves: the difference of placed vertices has lost digits.
-        magnitude = placed_magnitude(placement, max(abs(p0.xyz), max(abs(p1.xyz), abs(p2.xyz))));
+        moved += placed_magnitude(placement, max(abs(p0.xyz), max(abs(p1.xyz), abs(p2.xyz))));
         let edge_u = placed_vector(placement, p1.xyz - p0.xyz);
         point = triangle_point_by_edges(hit, placed_point(placement, p0.xyz), edge_u, placed_vector(placement, p2.xyz - p0.xyz));
         if placement.mirrored {
@@ -115,108 +107,63 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
             point.normal = -point.normal;
         }
         if placement.material != NONE {
-            material = placement.material;
+            surface.material = placement.material;
         }
     } else {
         point = shape_point(kind, ray, hit, p0.xyz, p1.xyz, p2.xyz);
     }
-#else
-    let p0 = words.w0;
-    let p1 = words.w1;
-    let p2 = words.w2;
-    let material = primitive_material(p0.w);
-    let point = shape_point(kind, ray, hit, p0.xyz, p1.xyz, p2.xyz);
-#endif
-    let normal = point.normal;
-    var size = point.size;
-    var uv = point.uv;
-    var sphere = vec4<f32>(0.0);
-#if SPHERES
-    if kind == KIND_SPHERE {
-        sphere = vec4<f32>(p0.xyz, p1.x);
+    surface.position = point.position;
+    surface.area = point.area;
+    if HAS_SPHERES && kind == KIND_SPHERE {
+        surface.sphere = vec4<f32>(p0.xyz, p1.x);
     }
-#endif
+    surface.front = dot(wo, point.normal) > 0.0;
+    surface.facing_normal = select(-point.normal, point.normal, surface.front);
+    surface.error = POINT_ERROR * dot(abs(surface.facing_normal), point.size + moved) + point.error;
 
-    let front = dot(wo, normal) > 0.0;
-    let facing_normal = select(-normal, normal, front);
-    // 0: the geometric normal.
+    // What vertices say of it: 0 stands for the geometric normal.
     var own_normal = vec3<f32>(0.0);
-#if ATTRIBUTES
-    let first = bitcast<u32>(p2.w);
-    if first != NONE {
-#if INSTANCES
-        var looked_up: Attribute;
-        if placement.exists {
-            looked_up = interpolate_in_instance(placement, first, uv);
-        } else {
-            looked_up = shape_attribute(kind, first, uv, normal);
+    surface.uv = only_coordinates(point.uv);
+    if HAS_ATTRIBUTES {
+        var uv = point.uv;
+        if first != NONE {
+            var looked_up: Attribute;
+            if HAS_INSTANCES && placement.exists {
+                looked_up = interpolate_in_instance(placement, first, uv);
+            } else {
+                looked_up = shape_attribute(kind, first, uv, point.normal);
+            }
+            uv = looked_up.uv;
+            own_normal = looked_up.normal;
         }
-#else
-        let looked_up = shape_attribute(kind, first, uv, normal);
-#endif
-        uv = looked_up.uv;
-        own_normal = looked_up.normal;
+        surface.uv = texture_coordinates(kind, first, uv, point.uv);
     }
-#endif
-#if ATTRIBUTES
-    let coordinates = texture_coordinates(kind, first, uv, point.uv);
-#else
-    let coordinates = only_coordinates(uv);
-#endif
-#if NORMAL_SHADOWING
-    var unbent_normal = vec3<f32>(0.0);
-    if shadows_bent_normals(material) {
-        unbent_normal = shading_normal_towards(own_normal, facing_normal, wo);
+
+    // The shading normal, and what it was before a map bent it.
+    if HAS_NORMAL_SHADOWING && shadows_bent_normals(surface.material) {
+        surface.unbent_normal = shading_normal_towards(own_normal, surface.facing_normal, wo);
     }
-#endif
-#if COAT_NORMALS
-    let coat_normal = select(own_normal, normal, dot(own_normal, own_normal) == 0.0);
-#endif
-#if NORMAL_MAPS
-    own_normal = mapped_normal(material, kind, bitcast<u32>(p2.w), own_normal, point, coordinates);
-#endif
-#if NORMAL_MIRRORING
-    var shading_normal = shading_normal_towards(own_normal, facing_normal, wo);
-    if mirrors_bent_normals(material) {
-        shading_normal = mirrored_normal_towards(own_normal, unbent_normal, facing_normal, wo);
+    if HAS_COAT_NORMALS {
+        surface.coat_normal = select(own_normal, point.normal, dot(own_normal, own_normal) == 0.0);
     }
-#else
-    let shading_normal = shading_normal_towards(own_normal, facing_normal, wo);
-#endif
-#if MOTION
-    size += placed.magnitude;
-#endif
-#if INSTANCES
-    size += magnitude;
-#endif
-#if TANGENTS
-    let tangents = shape_tangents(kind, bitcast<u32>(p2.w), point);
-#endif
-#if COAT_NORMALS
-#if SECOND_UVS
-    let second_tangents = tangents_of_set(kind, bitcast<u32>(p2.w), point, true);
-#endif
-#endif
-    return Surface(
-        point.position, facing_normal, shading_normal, coordinates, front,
-#if WEIGHTS_BY_VIEWER
-        false,
-#endif
-        POINT_ERROR * dot(abs(facing_normal), size) + point.error,
-        material, bitcast<u32>(p1.w), point.area, sphere
-#if TANGENTS
-        , tangents.along_u, tangents.along_v
-#endif
-#if NORMAL_SHADOWING
-        , unbent_normal
-#endif
-#if COAT_NORMALS
-        , coat_normal
-#if SECOND_UVS
-        , second_tangents.along_u, second_tangents.along_v
-#endif
-#endif
-    );
+    if HAS_NORMAL_MAPS {
+        own_normal = mapped_normal(surface.material, kind, first, own_normal, point, surface.uv);
+    }
+    surface.shading_normal = shading_normal_towards(own_normal, surface.facing_normal, wo);
+    if HAS_NORMAL_MIRRORING && mirrors_bent_normals(surface.material) {
+        surface.shading_normal = mirrored_normal_towards(own_normal, surface.unbent_normal, surface.facing_normal, wo);
+    }
+    if HAS_TANGENTS {
+        let tangents = shape_tangents(kind, first, point);
+        surface.along_u = tangents.along_u;
+        surface.along_v = tangents.along_v;
+    }
+    if HAS_COAT_NORMALS && HAS_SECOND_UVS {
+        let tangents = tangents_of_set(kind, first, point, true);
+        surface.second_along_u = tangents.along_u;
+        surface.second_along_v = tangents.along_v;
+    }
+    return surface;
 }
 
 // The surface point moved off the surface to the side of `toward`, past its error.

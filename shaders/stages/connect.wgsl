@@ -42,9 +42,9 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
             if traced < rays {
                 let s0 = shadow_rays[SHADOW_ORIGIN + shadow_ray_index(index, traced)];
                 let s1 = shadow_rays[SHADOW_DIRECTION + shadow_ray_index(index, traced)];
-#if MOTION
-                set_path_time_of(bitcast<u32>(s1.w));
-#endif
+                if HAS_MOTION {
+                    set_path_time_of(bitcast<u32>(s1.w));
+                }
                 traversal = begin_any(Ray(s0.xyz, s1.xyz), s0.w);
             }
         }

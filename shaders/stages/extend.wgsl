@@ -27,9 +27,9 @@ fn extend(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups)
             }
             slot = queues[queue * PATH_CAPACITY + next];
             next += stride;
-#if MOTION
-            set_path_time_of(slot);
-#endif
+            if HAS_MOTION {
+                set_path_time_of(slot);
+            }
             traversal = begin_closest(load_ray(slot), INFINITY_DISTANCE);
         }
         step_closest(&traversal, &stack);

@@ -141,12 +141,12 @@ fn add_sample(pixel: ptr<function, FilmPixel>, found: Spectrum) {
     (*pixel).count++;
     let l = luminance(radiance);
     if !is_finite(l * l) || !is_finite(max_component(abs(radiance))) {
-#if LAYER_OF_SURFACES
-        // Nothing was met: the mean is over the samples that met something.
-        (*pixel).count--;
-#else
-        (*pixel).refused++;
-#endif
+        if HAS_LAYER_OF_SURFACES {
+            // Nothing was met: the mean is over the samples that met something.
+            (*pixel).count--;
+        } else {
+            (*pixel).refused++;
+        }
         return;
     }
     let old = (*pixel).sum;
@@ -163,10 +163,10 @@ fn store_film_pixel(pixel_in_band: u32, pixel: FilmPixel) {
     if pixel.refused > 0u {
         count_refused_samples(pixel.refused);
     }
-#if CLAMP
-    if pixel.clamped > 0u {
-        // CLAMP_UNITS and MOST_CLAMP_UNITS.
-        count_clamped_samples(pixel.clamped, u32(min(pixel.taken / bitcast<f32>(CLAMP_BITS) * 1024.0, 4.0e9)));
+    if HAS_CLAMP {
+        if pixel.clamped > 0u {
+            // CLAMP_UNITS and MOST_CLAMP_UNITS.
+            count_clamped_samples(pixel.clamped, u32(min(pixel.taken / bitcast<f32>(CLAMP_BITS) * 1024.0, 4.0e9)));
+        }
     }
-#endif
 }

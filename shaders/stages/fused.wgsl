@@ -1,6 +1,7 @@
 // All stages in one kernel, for scenes so simple that storing paths between stages costs more than tracing them.
 #import core/layout.wgsl
 #import core/parameters.wgsl
+#import core/spectrum.wgsl
 #import stages/film.wgsl
 #import stages/fused_pixels.wgsl
 #import stages/fused_vertex.wgsl
@@ -38,14 +39,14 @@ fn render_pixel(index: u32) -> u32 {
 @compute @workgroup_size(WORKGROUP)
 fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
     var rays = 0u;
-#if TAKEN_PIXELS
-    for (var index = take_pixels(1u); index < pass_parameters.pixel_count; index = take_pixels(1u)) {
-        rays += render_pixel(index);
+    if HAS_TAKEN_PIXELS {
+        for (var index = take_pixels(1u); index < pass_parameters.pixel_count; index = take_pixels(1u)) {
+            rays += render_pixel(index);
+        }
+    } else {
+        if id.x < pass_parameters.pixel_count {
+            rays = render_pixel(id.x);
+        }
     }
-#else
-    if id.x < pass_parameters.pixel_count {
-        rays = render_pixel(id.x);
-    }
-#endif
     count_rays(rays);
 }

@@ -1,6 +1,7 @@
 // All stages in one kernel, for hierarchies on software devices. The lanes of a subgroup trace samples of one pixel at a time: their
 // camera rays and shadow rays are neighbours, which visit the same nodes at the same time.
 #import core/layout.wgsl
+#import core/spectrum.wgsl
 #import geometry/software/lanes.wgsl
 #import core/parameters.wgsl
 #import shading/path/path.wgsl

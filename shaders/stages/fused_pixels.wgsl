@@ -22,9 +22,9 @@ fn pass_pixel(index: u32) -> PassPixel {
 }
 
 fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
-#if MOTION
-    set_path_time(pixel, sample_in_pass);
-#endif
+    if HAS_MOTION {
+        set_path_time(pixel, sample_in_pass);
+    }
     let ray = camera_ray(pixel, sample_in_pass);
     return new_path(ray, pixel, sample_in_pass);
 }

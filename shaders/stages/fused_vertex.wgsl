@@ -2,18 +2,20 @@
 // the same vertex.
 #import core/math.wgsl
 #import geometry/closest.wgsl
-#import geometry/software/lanes.wgsl
-#import geometry/software/packet.wgsl
 #import shading/path/path.wgsl
 #import shading/path/trace.wgsl
+#if PACKETS
+#import geometry/software/lanes.wgsl
+#import geometry/software/packet.wgsl
+#endif
 
 // Whether the condition holds for any of the paths that are traced side by side.
 fn any_path(condition: bool) -> bool {
-#if PACKETS
-    return any_lane(condition);
-#else
-    return condition;
-#endif
+    if HAS_PACKETS {
+        return any_lane(condition);
+    } else {
+        return condition;
+    }
 }
 
 // What the ray meets first, of the lanes that have one.

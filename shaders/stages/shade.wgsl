@@ -1,6 +1,7 @@
 // Evaluates the vertices found: emission, next event estimation, the next direction, Russian roulette.
 #import core/layout.wgsl
 #import core/parameters.wgsl
+#import core/spectrum.wgsl
 #import geometry/motion.wgsl
 #import shading/path/path.wgsl
 #import stages/queue.wgsl
@@ -17,28 +18,24 @@ fn shade(
     @builtin(subgroup_invocation_id) lane_in_subgroup: u32,
 #endif
 ) {
-#if SUBGROUP_QUEUES
-    subgroup_lane = lane_in_subgroup;
-#endif
+    if HAS_SUBGROUP_QUEUES {
+        subgroup_lane = lane_in_subgroup;
+    }
     let queue = vertex_parameters.queue;
     var slot = 0u;
     var shading = no_shading();
     if id.x < atomicLoad(&counts[queue]) {
         slot = queues[queue * PATH_CAPACITY + id.x];
         var path = load_path(slot);
-#if MOTION
-        set_path_time(path.pixel, path.sample_in_pass);
-#endif
-        shading = shade_vertex(&path, load_hit(slot), vertex_parameters.vertex);
-#if LIGHT_CELLS
-        let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
-        path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices | path.lit_facing << 28u));
-#else
-        if HAS_NULL_SURFACES || any(shading.radiance != BLACK) {
-            let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
-            path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices));
+        if HAS_MOTION {
+            set_path_time(path.pixel, path.sample_in_pass);
         }
-#endif
+        shading = shade_vertex(&path, load_hit(slot), vertex_parameters.vertex);
+        // The last word changes with every vertex of scenes that use it.
+        if HAS_NULL_SURFACES || HAS_LIGHT_CELLS || any(shading.radiance != BLACK) {
+            let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
+            path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices | path.lit_facing << 28u));
+        }
         if shading.alive {
             store_path(slot, path);
         }
@@ -61,7 +58,6 @@ fn shade(
 #endif
 }
 
-#if LIGHTS
 // Writes the shadow rays of the path in a slot to its place in their queue. How many there are.
 fn store_shadow_rays(index: u32, slot: u32, shading: Shading) -> u32 {
     var shadow = shading.shadow;
@@ -86,4 +82,3 @@ fn store_shadow_rays(index: u32, slot: u32, shading: Shading) -> u32 {
     }
     return rays;
 }
-#endif

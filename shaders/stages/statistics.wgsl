@@ -46,10 +46,8 @@ fn take_pixels(count: u32) -> u32 {
     return atomicAdd(&statistics.counters[TAKEN_COUNTER], count);
 }
 
-#if PIXEL_LIST
 // The pixel with this index in the pass.
 fn listed_pixel_in_band(index: u32) -> u32 {
     return statistics.pixels[pass_parameters.first_pixel_in_band + index];
 }
-#endif
 #endif

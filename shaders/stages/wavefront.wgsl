@@ -5,10 +5,7 @@
 #import shading/path/path.wgsl
 #import geometry/motion.wgsl
 
-// Planes of PATH_CAPACITY vec4 each:
-//   ray origin and pixel within the pass (within the band where pixels are listed) | sample in the pass << 24; ray direction and its density; throughput and eta scale;
-//   radiance and null vertices; hit; where shadow rays go through surfaces, the point that light was last sampled from; where volumes take
-//   light, the extinction of the one that the ray goes through
+// Planes of PATH_CAPACITY vec4 each, by the table in src/plan/path_state.rs, which says what they hold.
 @group(0) @binding(BINDING_PATH_STATE) var<storage, read_write> path_state: array<vec4<f32>>;
 // The queue of paths with shadow rays: for each of LIGHT_SAMPLES rays, three planes of PATH_CAPACITY vec4: origin and distance; direction and
 // path slot; radiance and, where paths have several and of the first, how many the path has.
@@ -18,82 +15,61 @@
 // Paths in queue 0 and 1; paths with shadow rays of vertices that read queue 0 and 1; where paths have several, all shadow rays of a vertex.
 @group(0) @binding(BINDING_COUNTS) var<storage, read_write> counts: array<atomic<u32>, COUNTS>;
 
-const PLANE_ORIGIN: u32 = 0u;
-const PLANE_DIRECTION: u32 = PATH_CAPACITY;
-const PLANE_THROUGHPUT: u32 = 2u * PATH_CAPACITY;
-const PLANE_RADIANCE: u32 = 3u * PATH_CAPACITY;
-const PLANE_HIT: u32 = 4u * PATH_CAPACITY;
-#if TRANSPARENT_SHADOWS
-const PLANE_LIT_FROM: u32 = PATH_STATE_WORDS * PATH_CAPACITY;
-#endif
-#if ATTENUATION
-#if TRANSPARENT_SHADOWS
-const PLANE_EXTINCTION: u32 = PLANE_LIT_FROM + PATH_CAPACITY;
-#else
-const PLANE_EXTINCTION: u32 = PATH_STATE_WORDS * PATH_CAPACITY;
-#endif
-#endif
-
 const SHADOW_ORIGIN: u32 = 0u;
 const SHADOW_DIRECTION: u32 = PATH_CAPACITY;
 const SHADOW_RADIANCE: u32 = 2u * PATH_CAPACITY;
 const SHADOW_PLANES: u32 = SHADOW_RAY_WORDS * PATH_CAPACITY;
 
-const_assert PLANE_HIT + PATH_CAPACITY == PATH_STATE_WORDS * PATH_CAPACITY;
 const_assert SHADOW_RADIANCE + PATH_CAPACITY == SHADOW_PLANES;
 
 fn load_ray(slot: u32) -> Ray {
     return Ray(path_state[PLANE_ORIGIN + slot].xyz, path_state[PLANE_DIRECTION + slot].xyz);
 }
 
-#if MOTION
 // To be called before anything is asked of the scene for the path in a slot.
 fn set_path_time_of(slot: u32) {
     let identity = bitcast<u32>(path_state[PLANE_ORIGIN + slot].w);
     set_path_time(pass_parameters.first_pixel + (identity & 0x00ffffffu), identity >> 24u);
 }
-#endif
 
 fn load_path(slot: u32) -> Path {
-    let p0 = path_state[PLANE_ORIGIN + slot];
-    let p1 = path_state[PLANE_DIRECTION + slot];
-    let p2 = path_state[PLANE_THROUGHPUT + slot];
-    let identity = bitcast<u32>(p0.w);
-    var null_vertices = 0u;
-    if HAS_NULL_SURFACES {
-        null_vertices = bitcast<u32>(path_state[PLANE_RADIANCE + slot].w);
+    let origin = path_state[PLANE_ORIGIN + slot];
+    let direction = path_state[PLANE_DIRECTION + slot];
+    let throughput = path_state[PLANE_THROUGHPUT + slot];
+    let identity = bitcast<u32>(origin.w);
+    var path: Path;
+    path.ray = Ray(origin.xyz, direction.xyz);
+    path.throughput = throughput.xyz;
+    path.pdf_solid_angle = direction.w;
+    path.roulette_scale = throughput.w;
+    path.pixel = pass_parameters.first_pixel + (identity & 0x00ffffffu);
+    path.sample_in_pass = identity >> 24u;
+    if HAS_NULL_SURFACES || HAS_LIGHT_CELLS {
+        let vertices_and_facing = bitcast<u32>(path_state[PLANE_RADIANCE + slot].w);
+        path.null_vertices = vertices_and_facing & 0x0fffffffu;
+        path.lit_facing = vertices_and_facing >> 28u;
     }
-#if LIGHT_CELLS
-    // Above the null vertices stands which way the surface faces that light was last sampled from.
-    let vertices_and_facing = bitcast<u32>(path_state[PLANE_RADIANCE + slot].w);
-    null_vertices = vertices_and_facing & 0x0fffffffu;
-#endif
-    return Path(
-        Ray(p0.xyz, p1.xyz), p2.xyz, p1.w, p2.w, pass_parameters.first_pixel + (identity & 0x00ffffffu), identity >> 24u, null_vertices
-#if LIGHT_CELLS
-        , vertices_and_facing >> 28u
-#endif
-#if TRANSPARENT_SHADOWS
-        , path_state[PLANE_LIT_FROM + slot].xyz
-#endif
-#if ATTENUATION
-        , path_state[PLANE_EXTINCTION + slot].xyz
-#endif
-    );
+    if HAS_TRANSPARENT_SHADOWS {
+        path.lit_from = path_state[PLANE_LIT_FROM + slot].xyz;
+    }
+    if HAS_MEDIA {
+        path.media = bitcast<vec2<u32>>(path_state[PLANE_MEDIA + slot].xy);
+    }
+    return path;
 }
 
-// Writes all but the radiance, the null vertices and the hit.
+// Writes all but the radiance, the null vertices, the facing and the hit.
 fn store_path(slot: u32, path: Path) {
     let identity = (path.pixel - pass_parameters.first_pixel) | (path.sample_in_pass << 24u);
     path_state[PLANE_ORIGIN + slot] = vec4<f32>(path.ray.origin, bitcast<f32>(identity));
     path_state[PLANE_DIRECTION + slot] = vec4<f32>(path.ray.direction, path.pdf_solid_angle);
     path_state[PLANE_THROUGHPUT + slot] = vec4<f32>(path.throughput, path.roulette_scale);
-#if TRANSPARENT_SHADOWS
-    path_state[PLANE_LIT_FROM + slot] = vec4<f32>(path.lit_from, 0.0);
-#endif
-#if ATTENUATION
-    path_state[PLANE_EXTINCTION + slot] = vec4<f32>(path.extinction, 0.0);
-#endif
+    if HAS_TRANSPARENT_SHADOWS {
+        path_state[PLANE_LIT_FROM + slot] = vec4<f32>(path.lit_from, 0.0);
+    }
+    if HAS_MEDIA {
+        path_state[PLANE_MEDIA + slot] = vec4<f32>(bitcast<vec2<f32>>(path.media), 0.0, 0.0);
+    }
 }
 
 fn store_hit(slot: u32, hit: Hit) {

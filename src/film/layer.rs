@@ -146,9 +146,9 @@ impl KernelLayer {
             Self::Position => &["LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES", "LAYER_POSITION"],
             Self::Depth => &["LAYER_DEPTH", "LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES"],
             Self::Squares => &["LAYER_SQUARES"],
-            Self::Direct => &["LAYER_DIRECT", "LAYER_OF_LIGHT"],
-            Self::Indirect => &["LAYER_INDIRECT", "LAYER_OF_LIGHT"],
-            Self::Emission => &["LAYER_EMISSION", "LAYER_OF_LIGHT"],
+            Self::Direct => &["LAYER_DIRECT"],
+            Self::Indirect => &["LAYER_INDIRECT"],
+            Self::Emission => &["LAYER_EMISSION"],
         }
     }
 }

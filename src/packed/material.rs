@@ -13,7 +13,7 @@ use super::error::PackError;
 use super::texture::mention;
 use crate::scene::material::{self, AlbedoTable};
 use crate::scene::{
-    Attenuation, BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Masking, Material, MaterialId, MaterialKind, Scene,
+    BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Masking, Material, MaterialId, MaterialKind, Media, Scene,
 };
 use crate::shader::shared::{Constant, Constants, shared_constants};
 
@@ -44,8 +44,6 @@ shared_constants!(flags {
     const FACET_KNEE: f32 = material::FACET_KNEE as f32;
     const SHEEN_KNEE: f32 = material::SHEEN_KNEE as f32;
     const SMALLEST_SHEEN_ROUGHNESS: f32 = material::SMALLEST_SHEEN_ROUGHNESS as f32;
-    /// Where a volume's extinction stands among the further parameters of its material.
-    const EXTINCTION_PARAMETER: u32 = material::EXTINCTION_PARAMETER as u32;
     /// Likewise, where the texels of its coat's normals stand; their scale is the next.
     const COAT_NORMAL_PARAMETER: u32 = material::COAT_NORMAL_PARAMETER as u32;
     /// Likewise, where the texels of its anisotropy's direction stand.
@@ -62,8 +60,8 @@ shared_constants!(flags {
     pub(super) const LETS_THROUGH: u32 = 8;
     /// The back scatters nothing.
     pub(super) const FRONT_ONLY: u32 = 16;
-    /// What it encloses takes light.
-    pub(super) const ENCLOSES_VOLUME: u32 = 32;
+    /// Above these flags stands the number of the medium that surfaces of the material enclose; 0: they bound none.
+    pub(super) const MEDIUM_SHIFT: u32 = 16;
     /// Flag beside the number of a part's factors: its back scatters nothing.
     pub(super) const PART_FRONT_ONLY: u32 = 1 << 31;
     /// Above the first of a material's further parameters stands how many are looked up.
@@ -82,7 +80,7 @@ pub fn constants() -> Constants {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedMaterial {
-    /// [`LobeParameters::color0`](crate::scene::LobeParameters). Of a blend, the extinction of what it encloses.
+    /// [`LobeParameters::color0`](crate::scene::LobeParameters).
     pub color0: [f32; 3],
     /// The kind in eight bits, above them the lobe's form.
     pub kind_and_form: u32,
@@ -128,6 +126,9 @@ pub struct PackedBlendPart {
     pub constant_factor: f32,
 }
 
+/// Media have numbers of 16 bits, from 1.
+const MOST_MEDIA: usize = u16::MAX as usize;
+
 /// Entries that a table of albedos takes.
 const ALBEDO_ENTRIES: usize = (material::ALBEDO_ROWS * material::ALBEDO_COLUMNS).div_ceil(3);
 
@@ -161,6 +162,8 @@ pub struct PackedMaterials {
     pub further: Vec<PackedParameter>,
     /// Where tables of albedos stand among those.
     pub albedos: AlbedoPlaces,
+    /// The extinction of each medium, and 0; that of number 1 is the first.
+    pub media: Vec<[f32; 4]>,
     pub parts: Vec<PackedBlendPart>,
     pub weights: Vec<PackedBlendWeight>,
 }
@@ -199,12 +202,21 @@ impl PackedMaterials {
     /// [`PackError::TooManyWeights`] where the branches of nested blends have more weights than can be kept.
     pub fn new(scene: &Scene, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
         let mut packed = Self::default();
-        let volumes = scene.volumes_behind();
+        let media = Media::of(scene);
+        if media.extinctions.len() > MOST_MEDIA {
+            return Err(PackError::TooManyMedia { found: media.extinctions.len(), limit: MOST_MEDIA });
+        }
+        let absorbs = |id: &MaterialId| media.extinction(media.behind(*id)) != DVec3::ZERO;
+        let has_media = of_surfaces.iter().any(absorbs);
+        if has_media {
+            packed.media = media.extinctions.iter().map(|extinction| extinction.as_vec3().extend(0.0).to_array()).collect();
+        }
         for &id in of_surfaces {
-            let material = match scene.materials[id].kind {
-                MaterialKind::Blend { .. } => packed.blend(scene, id, volumes[id])?,
+            let mut material = match scene.materials[id].kind {
+                MaterialKind::Blend { .. } => packed.blend(scene, id)?,
                 _ => packed.plain(&scene.materials[id]),
             };
+            material.emission_flags |= if has_media { (media.behind(id) as u32) << MEDIUM_SHIFT } else { 0 };
             packed.materials.push(material);
             packed.scene_ids.push(id);
         }
@@ -290,7 +302,7 @@ impl PackedMaterials {
             .filter(|texture| **texture != NONE)
     }
 
-    fn blend(&mut self, scene: &Scene, id: MaterialId, volume: Option<Attenuation>) -> Result<PackedMaterial, PackError> {
+    fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<PackedMaterial, PackError> {
         let Parts { plain, emitting_blends } = parts(scene, id)?;
         let mut packed = PackedMaterial::new(&scene.materials[id]);
         // A blend that always is one of its materials is that material.
@@ -316,10 +328,6 @@ impl PackedMaterials {
         }
         if plain.iter().any(|part| matches!(scene.materials[part.material].kind, MaterialKind::Pass)) {
             packed.emission_flags |= LETS_THROUGH;
-        }
-        if let Some(attenuation) = volume {
-            packed.emission_flags |= ENCLOSES_VOLUME;
-            packed.color0 = attenuation.extinction().as_vec3().to_array();
         }
         packed.color1 = [self.parts.len(), plain.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
         for part in plain.into_iter().chain(emitting_blends) {
@@ -387,7 +395,6 @@ impl PackedMaterial {
             emission_flags: if radiance == black { 0 } else { EMITS }
                 | if two_sided { EMITS_TWO_SIDED } else { 0 }
                 | if kind == LobeKind::Null as u32 { LETS_THROUGH } else { 0 }
-                | if lobe.is_some_and(|lobe| lobe.form & material::ATTENUATES != 0) { ENCLOSES_VOLUME } else { 0 }
                 | if material.two_sided { 0 } else { FRONT_ONLY },
             color0_texture,
             emission_texture,
@@ -427,6 +434,11 @@ impl PackedMaterial {
     /// How many of its further parameters a hit looks up.
     pub fn looked_up(&self) -> u32 {
         self.further >> FURTHER_SHIFT
+    }
+
+    /// The number of the medium that its surfaces enclose; 0: they bound none.
+    pub fn medium(&self) -> u32 {
+        self.emission_flags >> MEDIUM_SHIFT
     }
 
     /// One of the forms of its lobe, by its bit in [`LobeParameters::form`](crate::scene::LobeParameters).

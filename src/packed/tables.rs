@@ -1,4 +1,4 @@
-//! One array for all that shading looks up: materials and their further parameters, the parts and weights of blends, lights and the tree
+//! One array for all that shading looks up: materials and their further parameters, media, the parts and weights of blends, lights and the tree
 //! of them, textures, motions.
 
 use super::scene::PackedScene;
@@ -13,6 +13,7 @@ pub struct Tables {
     pub first_texture: u32,
     pub first_motion: u32,
     pub first_further: u32,
+    pub first_medium: u32,
     pub first_light_node: u32,
 }
 
@@ -26,6 +27,7 @@ impl Tables {
         tables.first_texture = tables.append(&packed.textures.textures);
         tables.first_motion = tables.append(&packed.motions);
         tables.first_further = tables.append(&packed.materials.further);
+        tables.first_medium = tables.append(&packed.materials.media);
         tables.first_light_node = tables.append(&packed.light_nodes);
         tables
     }

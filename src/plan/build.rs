@@ -6,13 +6,12 @@ use super::limits::DeviceLimits;
 use super::memory::{self, Memory};
 use super::model::Plan;
 use super::options::PlanOptions;
-use super::path_state::{PathMemory, WORKGROUP};
+use super::path_state::{self, WORKGROUP};
 use super::{chunks, decisions, generated, ray_query, switches, unroll};
 use crate::film::KernelLayer;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::Scene;
-use crate::scene::material::ATTENUATES;
 use crate::shader::Switches;
 use crate::shader::switches::contradiction;
 
@@ -41,13 +40,9 @@ impl Plan {
         }
         let (geometry, why_geometry) = decisions::geometry(packed, options);
         let light_samples = if switches::samples_lights(scene, packed) { scene.render.several_light_samples()[0] } else { 1 };
-        let remembered = PathMemory {
-            lit_from: switches::shadows_are_transparent(scene, packed),
-            extinction: packed.materials.materials.iter().any(|material| material.has_form(ATTENUATES)),
-        };
-        let state_bytes = remembered.bytes();
-        let path_capacity = limits.paths_with_shadow_rays(state_bytes, u64::from(light_samples) * memory::SHADOW_RAY_BYTES);
         let of_scene = switches::of_scene(scene, packed);
+        let state_bytes = path_state::path_state_bytes(|switch| of_scene.enabled.contains(switch));
+        let path_capacity = limits.paths_with_shadow_rays(state_bytes, u64::from(light_samples) * memory::SHADOW_RAY_BYTES);
         let needs = decisions::Needs { features: of_scene.enabled.len(), light_samples, path_capacity };
         let (stages, why_stages) = decisions::stages(geometry, needs, &scene.render, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
@@ -121,6 +116,8 @@ impl Plan {
         if let Some(fault) = options.fault {
             fault.plant(packed, &mut plan.switches);
         }
+        let planes = path_state::plane_constants(|switch| plan.switches.enabled.contains(switch), path_capacity);
+        plan.switches.constants.extend(planes);
         let first_constant = match geometry {
             GeometryPlacement::Unrolled => 0,
             GeometryPlacement::Hierarchy => packed.hierarchy.primitive_count as usize,

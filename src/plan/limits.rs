@@ -2,7 +2,7 @@
 
 use super::choices::{FILM_BYTES, FilmStorage};
 use super::error::PlanError;
-use super::path_state::PathMemory;
+use super::path_state::MOST_PATH_STATE_BYTES;
 use crate::film::MOST_FILM_PIXELS;
 
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
@@ -98,7 +98,7 @@ impl DeviceLimits {
     /// Paths in flight on a device that binds arrays of `max_array` bytes and dispatches so many workgroups.
     pub fn most_paths(software: bool, max_array: u64, max_workgroups: u32) -> u32 {
         let wanted = if software { SOFTWARE_PATHS } else { HARDWARE_PATHS };
-        let possible = (max_array / PathMemory::MOST.bytes()).min(u64::from(max_workgroups) * 64);
+        let possible = (max_array / MOST_PATH_STATE_BYTES).min(u64::from(max_workgroups) * 64);
         wanted.min(possible) as u32
     }
 

@@ -5,7 +5,7 @@ use std::fmt;
 use super::choices::{FilmStorage, GeometryPlacement, StageMode};
 use super::chunks::Chunks;
 use super::memory::{Memory, SHADOW_RAY_BYTES};
-use super::path_state::PathMemory;
+use super::path_state;
 use crate::packed::hierarchy::Traversal;
 use crate::renderer::Decision;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
@@ -69,8 +69,7 @@ impl Plan {
 
     /// Bytes of the state of a path in flight.
     pub fn path_state_bytes(&self) -> u64 {
-        let has = |switch: &str| self.switches.enabled.contains(switch);
-        PathMemory { lit_from: has("TRANSPARENT_SHADOWS"), extinction: has("ATTENUATION") }.bytes()
+        path_state::path_state_bytes(|switch| self.switches.enabled.contains(switch))
     }
 
     /// How rays find what stands in the hierarchy, where there is one.

@@ -5,8 +5,6 @@ use crate::shader::shared::shared_constants;
 shared_constants!(constants {
     /// Invocations of a workgroup of every stage but `prepare`.
     pub const WORKGROUP: u32 = 64;
-    /// vec4s of a path's state: `shaders/stages/wavefront.wgsl` says what they hold.
-    pub const PATH_STATE_WORDS: u32 = 5;
     /// Flag beside the primitive of a hit in an instance, which has the instance's number in place of the distance; primitives have 24 bits.
     pub const HIT_IN_INSTANCE: u32 = 1 << 31;
     /// vec4s of a shadow ray.
@@ -25,21 +23,53 @@ shared_constants!(constants {
     pub const DISPATCH_SIZE_WORDS: u32 = 9;
 });
 
-/// What paths in flight remember beside what all do (`shaders/stages/wavefront.wgsl`).
-#[derive(Debug, Clone, Copy, Default)]
-pub struct PathMemory {
-    /// Shadow rays go through surfaces: the point that light was last sampled from.
-    pub lit_from: bool,
-    /// Volumes take light: the extinction of the one that the ray goes through.
-    pub extinction: bool,
+/// One vec4 of the state of a path in flight; the states of all paths have a plane of them.
+#[derive(Debug, Clone, Copy)]
+pub struct Plane {
+    /// The constant that kernels know the plane's first element by.
+    pub name: &'static str,
+    /// The switch of kernels that have the plane; None: all have it.
+    pub switch: Option<&'static str>,
 }
 
-impl PathMemory {
-    /// As much as any scene asks for.
-    pub const MOST: Self = Self { lit_from: true, extinction: true };
+/// The planes of the path state, in their order:
+///
+/// - the ray's origin, and as bits the pixel within the pass (within the band where pixels are listed) below the sample in the pass, in 24 and 8 bits;
+/// - the ray's direction and its density;
+/// - the throughput, and the scale of roulette;
+/// - the radiance, and as bits the number of vertices at null surfaces below the facing of the surface from which light was last sampled, in 28 and 4 bits;
+/// - the hit;
+/// - the point from which light was last sampled;
+/// - the media that the ray is in, as bits.
+pub const PLANES: &[Plane] = &[
+    Plane { name: "PLANE_ORIGIN", switch: None },
+    Plane { name: "PLANE_DIRECTION", switch: None },
+    Plane { name: "PLANE_THROUGHPUT", switch: None },
+    Plane { name: "PLANE_RADIANCE", switch: None },
+    Plane { name: "PLANE_HIT", switch: None },
+    Plane { name: "PLANE_LIT_FROM", switch: Some("TRANSPARENT_SHADOWS") },
+    Plane { name: "PLANE_MEDIA", switch: Some("MEDIA") },
+];
 
-    /// Bytes of state per path: ray, throughput, radiance, hit, and what this says.
-    pub fn bytes(self) -> u64 {
-        16 * u64::from(PATH_STATE_WORDS + u32::from(self.lit_from) + u32::from(self.extinction))
-    }
+/// Bytes of the state of a path that has every plane.
+pub const MOST_PATH_STATE_BYTES: u64 = 16 * PLANES.len() as u64;
+
+/// Bytes of the state of a path in flight, in kernels with the switches that `has` tells.
+pub fn path_state_bytes(has: impl Fn(&str) -> bool) -> u64 {
+    16 * planes(has).filter(|(_, is_there)| *is_there).count() as u64
+}
+
+/// The first elements of all planes of `capacity` paths. A plane that kernels do not have begins where the next one does.
+pub fn plane_constants(has: impl Fn(&str) -> bool, capacity: u32) -> Vec<(&'static str, u32)> {
+    let mut first = 0;
+    let placed = planes(has).map(|(plane, is_there)| {
+        let constant = (plane.name, first);
+        first += if is_there { capacity } else { 0 };
+        constant
+    });
+    placed.collect()
+}
+
+fn planes(has: impl Fn(&str) -> bool) -> impl Iterator<Item = (&'static Plane, bool)> {
+    PLANES.iter().map(move |plane| (plane, plane.switch.is_none_or(&has)))
 }

@@ -111,6 +111,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("FIRST_PART_WORD", tables.first_part),
         ("FIRST_LIGHT_NODE_WORD", tables.first_light_node),
         ("FIRST_LIGHT_WORD", tables.first_light),
+        ("FIRST_MEDIUM_WORD", tables.first_medium),
         ("FIRST_MOTION_WORD", tables.first_motion),
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
@@ -292,7 +293,7 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     let has_form = |form: u32| materials.iter().any(|material| material.has_form(form));
     switches.enable("COMPENSATION", has_form(material::COMPENSATED));
     switches.enable("SHEEN", has_form(material::SHEEN));
-    switches.enable("ATTENUATION", has_form(material::ATTENUATES));
+    switches.enable("MEDIA", !packed.materials.media.is_empty());
     switches.enable("ANISOTROPY", has_form(ANISOTROPIC));
     switches.enable("ANISOTROPY_DIRECTIONS", has_form(material::DIRECTED));
     let coat_normals_differ = scene.coat_normals_differ();

@@ -18,12 +18,12 @@ use super::emission::{emitted, null_weight};
 use super::guided::GuidedBsdf;
 use super::intersect::{Hit, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
+use super::medium::{MediumStack, transmittance};
 use super::mis;
 use super::roulette::{self, Expectation};
 use super::trace::{LightConnection, PathVisitor};
-use super::volume::{Volumes, transmittance};
 use crate::sampling::{CameraDimension, Dimension, Guide, LitPoint, PathSampler, VertexDimension};
-use crate::scene::{Emitters, Estimator, MaterialId, Scene};
+use crate::scene::{Emitters, Estimator, MaterialId, Media, Scene};
 
 /// A scene made ready for tracing paths.
 #[derive(Debug, Clone)]
@@ -38,7 +38,7 @@ pub struct Integrator {
     moves: bool,
     /// By material: it, or a part of its blend, gives light, and the camera does not see it.
     hidden: Vec<bool>,
-    volumes: Volumes,
+    media: Media,
     /// From where light arrives, where that was learned.
     guide: Option<Arc<Guide>>,
 }
@@ -62,8 +62,8 @@ struct Path {
     /// against each other by the densities that they have there.
     previous: Density,
     lit_from: LitPoint,
-    /// Extinction of the volume that the ray goes through.
-    extinction: DVec3,
+    /// The media that the ray is in.
+    stack: MediumStack,
     /// Edges of the path up to the end of the ray: the camera's has 1.
     depth: u32,
     /// Number of the next vertex, from 0: each has random numbers of its own. Null surfaces end no edge, else
@@ -98,7 +98,7 @@ impl Integrator {
             eta_scale: 1.0,
             expectation: Expectation::default(),
             previous: Density::Delta,
-            extinction: DVec3::ZERO,
+            stack: MediumStack::default(),
             depth: 1,
             vertex: 0,
         }
@@ -127,7 +127,7 @@ impl Integrator {
         surface.by_camera = path.depth == 1;
         visitor.round_surface(&mut surface);
         let wo = -path.ray.direction;
-        path.throughput *= transmittance(path.extinction, surface.point.position.distance(path.ray.origin));
+        path.throughput *= transmittance(&self.media, path.stack.innermost(), surface.point.position.distance(path.ray.origin));
         visitor.surface(path.depth, &surface, wo, path.throughput);
 
         // Let the camera look through emitters that it is not to see
@@ -188,7 +188,7 @@ impl Integrator {
         if drawn.is_null {
             return true;
         }
-        path.extinction = self.volumes.extinction_towards(&surface, bsdf.view.front, drawn.wi, path.extinction);
+        path.stack = path.stack.towards(&self.media, &surface, bsdf.view.front, drawn.wi);
         path.previous = drawn.density;
         path.lit_from = LitPoint::new(path.ray.origin, lit_normal);
 
@@ -214,7 +214,7 @@ impl Integrator {
 
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_escaped_radiance<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
-        path.throughput *= transmittance(path.extinction, f64::INFINITY);
+        path.throughput *= transmittance(&self.media, path.stack.innermost(), f64::INFINITY);
         if path.depth == 1 && self.scene.render.emitters == Emitters::Hidden {
             return visitor.escaped(DVec3::ZERO, 1.0, DVec3::ZERO);
         }
@@ -299,8 +299,8 @@ impl Integrator {
         visitor.ray(&ray);
         let unstopped = self.unstopped(ray, &light, &path.time);
         let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
-        let extinction = self.volumes.extinction_towards(surface, view.front, light.wi, path.extinction);
-        let contribution = unshadowed * unstopped * transmittance(extinction, light.distance);
+        let medium = path.stack.towards(&self.media, surface, view.front, light.wi).innermost();
+        let contribution = unshadowed * unstopped * transmittance(&self.media, medium, light.distance);
         path.radiance += contribution;
         if V::COMPARES {
             visitor.unguided(guided.unguided(light.wi, Density::SolidAngle(scattering.pdf)));

@@ -15,11 +15,11 @@ pub mod integrator;
 pub mod intersect;
 pub mod layer;
 pub mod lights;
+mod medium;
 pub mod mis;
 pub mod roulette;
 pub mod rounding;
 pub mod trace;
-mod volume;
 pub mod warp;
 pub mod work;
 

@@ -18,6 +18,7 @@ mod instance;
 pub mod light;
 mod light_at;
 pub mod material;
+pub mod medium;
 mod model;
 pub mod motion;
 mod placed_groups;
@@ -47,6 +48,7 @@ pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking,
     Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
 };
+pub use medium::Media;
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{

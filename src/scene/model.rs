@@ -9,7 +9,7 @@ use super::camera::Camera;
 use super::import_report::ImportReport;
 use super::instance::{Group, Instances};
 use super::light::{Environment, EnvironmentRadiance, Light};
-use super::material::{Attenuation, Material, MaterialId, MaterialKind};
+use super::material::{Material, MaterialId, MaterialKind};
 use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
 use super::sources::Sources;
@@ -119,35 +119,6 @@ impl Scene {
         let mapped = self.materials_that(Material::has_coat_normal_map);
         let differs = |id: MaterialId| mapped[id] || (coated[id] && self.materials[id].normal_map.is_some());
         (0..self.materials.len()).map(differs).collect()
-    }
-
-    /// For each material, the attenuation behind a surface of it; a blend has that of the first part that
-    /// encloses something.
-    #[doc(hidden)]
-    pub fn volumes_behind(&self) -> Vec<Option<Attenuation>> {
-        let own = |material: &Material| match &material.kind {
-            MaterialKind::Principled(principled) => principled.attenuation,
-            _ => None,
-        };
-        let mut found: Vec<Option<Attenuation>> = self.materials.iter().map(own).collect();
-        if found.iter().all(Option::is_none) {
-            return found;
-        }
-        // Parts before wholes, each material once. One that is a part of itself is for the check of the scene to refuse.
-        let mut is_entered = vec![false; found.len()];
-        let mut to_visit = Vec::new();
-        for root in 0..found.len() {
-            to_visit.push((root, false));
-            while let Some((id, parts_are_known)) = to_visit.pop() {
-                let MaterialKind::Blend { materials: [first, second], .. } = self.materials[id].kind else { continue };
-                if parts_are_known {
-                    found[id] = found[first].or(found[second]);
-                } else if !std::mem::replace(&mut is_entered[id], true) {
-                    to_visit.extend([(id, true), (first, false), (second, false)]);
-                }
-            }
-        }
-        found
     }
 
     /// The material emits, by itself or through a part of it.

@@ -2,13 +2,15 @@
 //!
 //! A file is included once, where it is first imported; lines that `enable` an extension go to the front, where WGSL wants them. Switches
 //! and constants come from the plan, so that a scene's kernels hold only what the scene uses; what their entry points do not reach is left
-//! out ([`super::reach`]). Code may also read the switch `X` as a constant,
-//! `HAS_X`: where both ways are valid WGSL, an `if` that compilers fold reads better than `#if`.
+//! out ([`super::reach`]). Code may also read the switch `X` as a constant, `HAS_X`. A statement `if HAS_X { … }` costs no more than `#if`,
+//! since its block is left out where the switch is off ([`super::fold`]), and reads better.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use super::fold::{Line, folded};
 use super::switches;
 
 /// Compile-time choices: which `#if`s hold, and constants that are declared before the first line.
@@ -98,7 +100,7 @@ pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader
 }
 
 /// The prefix of the switches' names where code reads them as constants.
-const SWITCH_PREFIX: &str = "HAS_";
+pub(super) const SWITCH_PREFIX: &str = "HAS_";
 
 /// The switches that a line of code reads as constants.
 fn switches_read(line: &str) -> impl Iterator<Item = &str> {
@@ -132,7 +134,14 @@ impl Composer<'_> {
         let part = if text.starts_with("enable ") { &mut self.enables } else { &mut self.out };
         let _ = writeln!(part.text, "{text}");
         part.origin.push((file, line));
-        self.read.extend(switches_read(text).map(str::to_owned));
+    }
+
+    fn push_all(&mut self, file: &'static str, lines: Vec<Line<'_>>) {
+        // A name in a block that is left out has to be that of a switch as well.
+        self.read.extend(lines.iter().flat_map(|(_, line)| switches_read(line)).map(str::to_owned));
+        for (number, line) in folded(&lines, &self.switches.enabled) {
+            self.push(file, number, &line);
+        }
     }
 
     fn finish(self) -> ComposedShader {
@@ -169,6 +178,7 @@ impl Composer<'_> {
         }
         // One entry per open #if: whether its present branch holds.
         let mut conditions: Vec<bool> = Vec::new();
+        let mut lines: Vec<Line<'_>> = Vec::new();
         for (index, line) in text.lines().enumerate() {
             let number = index as u32 + 1;
             let fail = |message: &str| Err(ComposeError::Directive { file, line: number, message: message.to_owned() });
@@ -193,14 +203,16 @@ impl Composer<'_> {
                 }
             } else if let Some(import) = trimmed.strip_prefix("#import ").or_else(|| trimmed.strip_prefix("#export ")) {
                 if holds {
+                    self.push_all(file, std::mem::take(&mut lines));
                     self.include(import.trim(), file, number)?;
                 }
             } else if trimmed.starts_with('#') {
                 return fail("unknown directive");
             } else if holds {
-                self.push(file, number, line);
+                lines.push((number, Cow::Borrowed(line)));
             }
         }
+        self.push_all(file, lines);
         match conditions.is_empty() {
             true => Ok(()),
             false => {

@@ -1,6 +1,7 @@
 //! The WGSL sources, and how they become the kernels of one plan.
 
 pub mod compose;
+mod fold;
 pub mod reach;
 pub mod shared;
 pub mod sources;

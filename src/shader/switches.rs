@@ -154,7 +154,6 @@ const OF_FEATURES: &[Switch] = &[
     switch("APERTURE_SQUARE").requires(&["LENS"]),
     switch("AREA_LIGHTS").one_of(DRAWN_BY_AREA),
     switch("AREA_LIGHTS_BY_PICTURE").requires(&["AREA_LIGHTS", "LIGHTS_BY_PICTURE"]),
-    switch("ATTENUATION").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
     switch("ATTRIBUTES"),
     switch("ATTRIBUTE_CHUNKS").requires(&["ATTRIBUTES"]),
     switch("BECKMANN"),
@@ -199,12 +198,11 @@ const OF_FEATURES: &[Switch] = &[
     // These layers are rendered in place of the picture.
     switch("LAYER_ALBEDO").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
     switch("LAYER_DEPTH").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
-    switch("LAYER_DIRECT").requires(&["LAYER_OF_LIGHT"]).excludes(LAYERS),
-    switch("LAYER_EMISSION").requires(&["LAYER_OF_LIGHT"]).excludes(LAYERS),
-    switch("LAYER_INDIRECT").requires(&["LAYER_OF_LIGHT"]).excludes(LAYERS),
+    switch("LAYER_DIRECT").excludes(LAYERS),
+    switch("LAYER_EMISSION").excludes(LAYERS),
+    switch("LAYER_INDIRECT").excludes(LAYERS),
     switch("LAYER_NORMAL").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
     switch("LAYER_OF_FIRST_SURFACE").requires(&["LAYER_OF_SURFACES"]).one_of(&["LAYER_DEPTH", "LAYER_POSITION"]),
-    switch("LAYER_OF_LIGHT").one_of(&["LAYER_DIRECT", "LAYER_EMISSION", "LAYER_INDIRECT"]).excludes(&["LAYER_OF_SURFACES"]),
     switch("LAYER_OF_SURFACES").one_of(&["LAYER_DEPTH", "LAYER_ALBEDO", "LAYER_NORMAL", "LAYER_POSITION"]),
     switch("LAYER_POSITION").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
     switch("LAYER_SQUARES").excludes(LAYERS),
@@ -216,6 +214,8 @@ const OF_FEATURES: &[Switch] = &[
         .one_of(&["AREA_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_PICTURE"]),
     // Some delta light throws a texture.
     switch("LIGHT_TEXTURES").requires(&["DELTA_LIGHTS", "TEXTURES"]),
+    // Some surface encloses a medium that absorbs.
+    switch("MEDIA"),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
     // A mixture has lobes besides the diffuse one.
     switch("MORE_LOBES").requires(&["MIXTURE"]),

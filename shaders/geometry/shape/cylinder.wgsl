@@ -53,18 +53,14 @@ fn intersect_cylinder(ray: PreparedRay, t_max: f32, start: vec3<f32>, axis: vec3
     return vec3<f32>(select(-1.0, crossing.x, met), 0.0, crossing.y);
 }
 
-#if TRANSPARENT_SHADOWS
 // The crossing behind the one that intersect_cylinder finds.
 fn intersect_cylinder_again(ray: PreparedRay, t_max: f32, start: vec3<f32>, axis: vec3<f32>, radial: vec3<f32>) -> vec3<f32> {
     let crossings = cylinder_crossings(ray, start, axis, radial);
     let both = crossings.met && is_on_cylinder(crossings.near) && is_on_cylinder(crossings.far);
     return vec3<f32>(select(-1.0, crossings.far.x, both && crossings.far.x < t_max), 0.0, crossings.far.y);
 }
-#endif
 
-#if MOTION
 fn move_cylinder(motion: Motion, start: vec3<f32>, axis: vec3<f32>, radial: vec3<f32>) -> MovedPoints {
     let size = abs(start) + abs(axis) + length(radial);
     return MovedPoints(moved_point(motion, start), motion.linear * axis, motion.linear * radial, size);
 }
-#endif

@@ -10,10 +10,8 @@ fn intersect_disk(ray: PreparedRay, t_max: f32, center: vec3<f32>, normal: vec3<
     return vec3<f32>(select(-1.0, t, dot(r, r) <= radius * radius && t > 0.0 && t < t_max), 0.0, 0.0);
 }
 
-#if MOTION
 fn move_disk(motion: Motion, center: vec3<f32>, normal: vec3<f32>, p2: vec3<f32>) -> MovedPoints {
     let moved = motion.linear * normal;
     let scale = length(moved);
     return MovedPoints(moved_point(motion, center), moved / scale, vec3<f32>(p2.x * scale, p2.yz), abs(center) + p2.x);
 }
-#endif

@@ -28,9 +28,7 @@ fn intersect_quad_constant(
     return vec3<f32>(select(-1.0, t, inside && t > 0.0 && t < t_max), u, v);
 }
 
-#if MOTION
 fn move_quad(motion: Motion, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> MovedPoints {
     let size = abs(corner) + abs(edge_u) + abs(edge_v);
     return MovedPoints(moved_point(motion, corner), motion.linear * edge_u, motion.linear * edge_v, size);
 }
-#endif

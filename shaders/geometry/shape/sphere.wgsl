@@ -26,18 +26,14 @@ fn intersect_sphere(ray: PreparedRay, t_max: f32, center: vec3<f32>, p1: vec3<f3
     return vec3<f32>(select(-1.0, t, t > 0.0 && t < t_max), 0.0, 0.0);
 }
 
-#if TRANSPARENT_SHADOWS
 // The crossing behind the one that intersect_sphere finds.
 fn intersect_sphere_again(ray: PreparedRay, t_max: f32, center: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>) -> vec3<f32> {
     let crossings = sphere_crossings(ray, center, p1.x);
     return vec3<f32>(select(-1.0, crossings.y, crossings.x > 0.0 && crossings.y < t_max), 0.0, 0.0);
 }
-#endif
 
-#if MOTION
 fn move_sphere(motion: Motion, center: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>) -> MovedPoints {
     // Round shapes are scaled by the same factor along every axis.
     let radius = vec3<f32>(p1.x * length(motion.linear[0]), p1.yz);
     return MovedPoints(moved_point(motion, center), radius, p2, abs(center) + p1.x);
 }
-#endif

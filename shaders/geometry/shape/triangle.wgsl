@@ -30,9 +30,7 @@ fn intersect_triangle(ray: PreparedRay, t_max: f32, p0: vec3<f32>, p1: vec3<f32>
     return vec3<f32>(select(-1.0, t, met), e1 * inverse, e2 * inverse);
 }
 
-#if MOTION
 fn move_triangle(motion: Motion, p0: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>) -> MovedPoints {
     let size = max(abs(p0), max(abs(p1), abs(p2)));
     return MovedPoints(moved_point(motion, p0), moved_point(motion, p1), moved_point(motion, p2), size);
 }
-#endif

@@ -34,7 +34,6 @@ fn shared_primitive(primitive: u32, exists: bool) -> PrimitiveWords {
     );
 }
 
-#if INSTANCES
 // An instance's six words, likewise.
 fn shared_instance(instance: u32) -> InstanceWords {
     var first = vec4<f32>(0.0);
@@ -53,7 +52,6 @@ fn shared_instance(instance: u32) -> InstanceWords {
         bitcast<vec4<f32>>(from_lane(more_bits, 1u))
     );
 }
-#endif
 
 // A node, whose words begin at `first`, likewise.
 fn shared_node(first: u32) -> NodeWords {

@@ -38,7 +38,6 @@ fn shown_density(light: u32, place: vec2<f32>) -> f32 {
     return warp_density(warp, cell.x, cell.y);
 }
 
-#if SPHERE_LIGHTS_BY_PICTURE
 struct SphereBand {
     // The share of the area that lies below.
     below: f32,
@@ -76,4 +75,3 @@ fn sphere_normal_at(first: u32, u: f32, below: f32) -> vec3<f32> {
 #endif
     return normalize(normal);
 }
-#endif

@@ -2,7 +2,7 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/prepared_ray.wgsl
-#import shading/light/distant.wgsl
+#import shading/light/choice.wgsl
 #import shading/light/record.wgsl
 #import shading/shapes.wgsl
 #import shading/light/sphere_light.wgsl
@@ -11,11 +11,11 @@
 fn sample_portal(light: u32, reference: vec3<f32>, u: f32, v: f32) -> vec3<f32> {
     let l1 = light_word(light, 1u);
     let kind = bitcast<u32>(light_word(light, 0u).x) >> PORTAL_SHIFT;
-#if SPHERE_LIGHTS
-    if kind == KIND_SPHERE {
-        return sphere_cone_sample(reference, l1.xyz, l1.w, WHITE, true, 1.0, u, v).wi;
+    if HAS_SPHERE_LIGHTS {
+        if kind == KIND_SPHERE {
+            return sphere_cone_sample(reference, l1.xyz, l1.w, WHITE, true, 1.0, u, v).wi;
+        }
     }
-#endif
     let to_point = sample_shape(kind, l1.xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz, u, v).position - reference;
     return to_point / max(length(to_point), 1.0e-30);
 }
@@ -26,12 +26,12 @@ fn portal_pdf(light: u32, ray: PreparedRay) -> f32 {
     return shape_direction_pdf(kind, ray, light_word(light, 1u), light_word(light, 2u).xyz, light_word(light, 3u).xyz);
 }
 
-// All portals together, the choice of one in a cell of lights included.
-fn portals_pdf(ray: Ray, cell: u32) -> f32 {
+// Density with which all portals together draw the ray's direction, the choice of one included.
+fn portals_pdf(ray: Ray, context: LightContext) -> f32 {
     let prepared = prepare_ray(ray);
     var sum = 0.0;
     for (var light = FIRST_PORTAL; light < FIRST_PORTAL + PORTAL_COUNT; light++) {
-        sum += distant_light_pmf(light, cell) * portal_pdf(light, prepared);
+        sum += distant_light_pmf(context, light) * portal_pdf(light, prepared);
     }
     return sum;
 }

@@ -4,6 +4,13 @@
 #import geometry/motion.wgsl
 #import geometry/placed.wgsl
 
+// A light that was chosen among all.
+struct LightChoice {
+    light: u32,
+    // The probability of the choice; 0 where no light was chosen.
+    pmf: f32,
+}
+
 // A light takes five vec4 of the tables:
 //   (kind and flags; alias threshold; alias; probability of being chosen)
 //   (first point; area or radius), (second; trail), (third; attributes, of a delta light the texture
@@ -22,7 +29,6 @@ fn light_word(light: u32, word: u32) -> vec4<f32> {
     return tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + word];
 }
 
-#if MOVING_LIGHTS
 // The magnitude that rounding of a moving light's points is relative to; 0 where it rests.
 fn moved_light_magnitude(light: u32) -> vec3<f32> {
     let word_3 = tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 3u];
@@ -32,4 +38,3 @@ fn moved_light_magnitude(light: u32) -> vec3<f32> {
     let size = abs(tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 1u].xyz) + abs(tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 2u].xyz);
     return moved_magnitude(motion_at_path_time(motion_of_attributes(bitcast<u32>(word_3.w))), size + abs(word_3.xyz));
 }
-#endif

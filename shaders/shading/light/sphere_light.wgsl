@@ -1,4 +1,5 @@
 // Points on sphere lights.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/light/light_sample.wgsl
 
@@ -50,7 +51,6 @@ fn sphere_cone_pdf(reference: vec3<f32>, center: vec3<f32>, radius: f32) -> f32 
     return (1.0 + sqrt(max(0.0, 1.0 - sin2_max))) / (TWO_PI * sin2_max);
 }
 
-#if SPHERE_POINTS
 // To the point with this normal, of which so large an area was drawn from evenly. From outside, the sphere hides its own far side.
 fn sphere_sample_of_point(
     reference: vec3<f32>, center: vec3<f32>, radius: f32, normal: vec3<f32>, radiance: Spectrum, two_sided: bool, pmf: f32, area: f32
@@ -69,16 +69,14 @@ fn sphere_sample_of_point(
     let early = min(error / abs(cosine), 0.5 * distance);
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
 }
-#endif
 
-#if SPHERE_LIGHTS_BY_POINT
 // Area over which points are drawn: that of the whole sphere, or of the half that faces an outside reference point.
 fn sphere_sampled_area(radius: f32, outside: bool) -> f32 {
-#if SPHERE_LIGHTS_VISIBLE_HALF
-    return select(2.0, 1.0, outside) * TWO_PI * radius * radius;
-#else
-    return 2.0 * TWO_PI * radius * radius;
-#endif
+    if HAS_SPHERE_LIGHTS_VISIBLE_HALF {
+        return select(2.0, 1.0, outside) * TWO_PI * radius * radius;
+    } else {
+        return 2.0 * TWO_PI * radius * radius;
+    }
 }
 
 // Uniform over that area.
@@ -92,23 +90,22 @@ fn sphere_point_sample(
     let height = 1.0 - 2.0 * u;
     let sine = sqrt(max(0.0, (1.0 - height) * (1.0 + height)));
     var normal = vec3<f32>(sine * circle.y, sine * circle.x, height);
-#if SPHERE_LIGHTS_VISIBLE_HALF
-    if outside {
-        let sine_of_half = sqrt(max(0.0, (1.0 - u) * (1.0 + u)));
-        let frame = frame_from_normal(to_reference / sqrt(reference_distance2));
-        normal = frame_to_world(frame, vec3<f32>(sine_of_half * circle.y, sine_of_half * circle.x, u));
+    if HAS_SPHERE_LIGHTS_VISIBLE_HALF {
+        if outside {
+            let sine_of_half = sqrt(max(0.0, (1.0 - u) * (1.0 + u)));
+            let frame = frame_from_normal(to_reference / sqrt(reference_distance2));
+            normal = frame_to_world(frame, vec3<f32>(sine_of_half * circle.y, sine_of_half * circle.x, u));
+        }
     }
-#endif
     return sphere_sample_of_point(reference, center, radius, normal, radiance, two_sided, pmf, sphere_sampled_area(radius, outside));
 }
-#endif
 
 fn sphere_light_sample(
     reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: Spectrum, two_sided: bool, pmf: f32, u: f32, v: f32
 ) -> LightSample {
-#if SPHERE_LIGHTS_BY_POINT
-    return sphere_point_sample(reference, center, radius, radiance, two_sided, pmf, u, v);
-#else
-    return sphere_cone_sample(reference, center, radius, radiance, two_sided, pmf, u, v);
-#endif
+    if HAS_SPHERE_LIGHTS_BY_POINT {
+        return sphere_point_sample(reference, center, radius, radiance, two_sided, pmf, u, v);
+    } else {
+        return sphere_cone_sample(reference, center, radius, radiance, two_sided, pmf, u, v);
+    }
 }

@@ -68,7 +68,7 @@ fn weighted_part(run: PartRun, index: u32, seen: Seen, uv: TextureCoordinates) -
 }
 
 // Σ wᵢ Leᵢ, and what the blend emits by itself.
-fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> Spectrum {
+fn blended_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> Spectrum {
     var radiance = own_emission(material, seen.front, uv);
     if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & PARTS_EMIT) != 0u {
         let run = part_run(material);

@@ -5,14 +5,22 @@
 #import shading/material/scattering.wgsl
 #import shading/material/seen.wgsl
 #import shading/surface.wgsl
-#if BLENDS
-#export shading/material/blend.wgsl
-#endif
+#import shading/material/blend.wgsl
+#import shading/material/lobe.wgsl
+#import shading/material/lobes.wgsl
+
+// Radiance that a material sends out in the direction from which it is seen.
+fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> Spectrum {
+    if HAS_BLENDS {
+        return blended_emission(material, seen, uv);
+    } else {
+        return own_emission(material, seen.front, uv);
+    }
+}
+
 #if MIXTURE
 #export shading/material/mixture.wgsl
 #else
-#import shading/material/lobe.wgsl
-#import shading/material/lobes.wgsl
 
 // The material has a single lobe, by itself or because one was picked.
 struct Bsdf {
@@ -58,13 +66,6 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
     }
 #endif
     return Bsdf(load_lobe(surface.material, surface.uv));
-}
-#endif
-
-#if !BLENDS
-// Radiance that a material sends out towards where it is seen from.
-fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> Spectrum {
-    return own_emission(material, seen.front, uv);
 }
 #endif
 

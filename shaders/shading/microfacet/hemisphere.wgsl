@@ -17,9 +17,9 @@ fn sample_hemisphere(surface: Surface, u: f32, v: f32) -> vec4<f32> {
 }
 
 fn hemisphere_pdf(cosine: f32) -> f32 {
-#if UNIFORM_HEMISPHERE
-    return 0.5 * INVERSE_PI;
-#else
-    return cosine * INVERSE_PI;
-#endif
+    if HAS_UNIFORM_HEMISPHERE {
+        return 0.5 * INVERSE_PI;
+    } else {
+        return cosine * INVERSE_PI;
+    }
 }

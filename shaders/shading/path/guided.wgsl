@@ -36,13 +36,13 @@ fn scatter_guided(
         drawn.wi = guided_direction(cell, u, v);
         is_open = on_wo_side(surface, drawn.wi);
     } else {
-#if MORE_LOBES
-        draw = draw_direction(bsdf, surface, wo, left, u, v);
-        drawn = draw.chosen;
-        is_open = draw.mixed;
-#else
-        drawn = sample_bsdf(bsdf, surface, wo, left, u, v);
-#endif
+        if HAS_MORE_LOBES {
+            draw = draw_direction(bsdf, surface, wo, left, u, v);
+            drawn = draw.chosen;
+            is_open = draw.mixed;
+        } else {
+            drawn = sample_bsdf(bsdf, surface, wo, left, u, v);
+        }
     }
     var light_value = no_value();
     var draw_value = no_value();
@@ -63,11 +63,11 @@ fn scatter_guided(
     if by_guide && !is_open {
         return shadowed(Scattering(light_value, no_sample()), surface, light_wi);
     }
-#if MORE_LOBES
-    if !by_guide {
-        drawn = mixed_sample(draw, draw_value);
+    if HAS_MORE_LOBES {
+        if !by_guide {
+            drawn = mixed_sample(draw, draw_value);
+        }
     }
-#endif
     if !by_guide && drawn.pdf_solid_angle < 0.0 {
         // The guide leaves delta lobes to the BSDF.
         drawn.weight /= 1.0 - cell.share;

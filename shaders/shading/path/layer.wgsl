@@ -3,18 +3,13 @@
 
 // Light that reaches the camera over so many edges, as far as the layer holds it: all of it where the picture itself is made.
 fn in_layer(radiance: Spectrum, edges: u32) -> Spectrum {
-#if LAYER_OF_LIGHT
-#if LAYER_EMISSION
-    let is_held = edges == 1u;
-#endif
-#if LAYER_DIRECT
-    let is_held = edges == 2u;
-#endif
-#if LAYER_INDIRECT
-    let is_held = edges > 2u;
-#endif
-    return select(BLACK, radiance, is_held);
-#else
-    return radiance;
-#endif
+    if HAS_LAYER_EMISSION {
+        return select(BLACK, radiance, edges == 1u);
+    } else if HAS_LAYER_DIRECT {
+        return select(BLACK, radiance, edges == 2u);
+    } else if HAS_LAYER_INDIRECT {
+        return select(BLACK, radiance, edges > 2u);
+    } else {
+        return radiance;
+    }
 }

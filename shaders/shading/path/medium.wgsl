@@ -1,29 +1,56 @@
-// Volumes that take light and scatter none, behind the surfaces that enclose them.
+// Media that absorb light and scatter none, within the surfaces that enclose them. src/reference/medium.rs is the same in f64.
 #import core/layout.wgsl
-#import core/spectrum.wgsl
+#import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/surface.wgsl
 
-// Share of light that is left after a distance within a volume.
-fn volume_transmittance(extinction: Spectrum, distance: f32) -> Spectrum {
+// The numbers of the media that a ray is in, 16 bits each, from the lower half of x up to the upper half of y: the innermost is the one that was
+// entered last. 0 stands for none. A fifth one within the others makes the outermost forgotten.
+alias MediumStack = vec2<u32>;
+
+fn innermost(media: MediumStack) -> u32 {
+    return media.x & 0xffffu;
+}
+
+fn enter_medium(media: MediumStack, medium: u32) -> MediumStack {
+    return MediumStack((media.x << 16u) | medium, (media.y << 16u) | (media.x >> 16u));
+}
+
+// Takes out a medium at its innermost place; those around it move inwards. Media that a ray began in are on no stack.
+fn leave_medium(media: MediumStack, medium: u32) -> MediumStack {
+    let first = media.x & 0xffffu;
+    let second = media.x >> 16u;
+    let third = media.y & 0xffffu;
+    let fourth = media.y >> 16u;
+    if first == medium {
+        return MediumStack(second | (third << 16u), fourth);
+    }
+    if second == medium {
+        return MediumStack(first | (third << 16u), fourth);
+    }
+    if third == medium {
+        return MediumStack(media.x, fourth);
+    }
+    return MediumStack(media.x, select(media.y, third, fourth == medium));
+}
+
+// Beer and Lambert's law: the share of light that is left after a distance within a medium.
+fn medium_transmittance(medium: u32, distance: f32) -> Spectrum {
+    if medium == 0u {
+        return WHITE;
+    }
+    let extinction = tables[FIRST_MEDIUM_WORD + medium - 1u].xyz;
     return exp(-min(extinction * min(distance, FARTHEST), Spectrum(87.0)));
 }
 
-// Extinction on the side of a surface that `toward` points to, given that on wo's side.
-fn extinction_towards(surface: Surface, toward: vec3<f32>, here: Spectrum) -> Spectrum {
-    let word = surface.material * MATERIAL_WORDS;
-    let encloses = (bitcast<u32>(tables[word + 2u].w) & ENCLOSES_VOLUME) != 0u;
-    if !encloses || dot(toward, surface.facing_normal) > 0.0 {
+// The media on the side of a surface that `toward` points to, given those on wo's side.
+fn media_towards(surface: Surface, toward: vec3<f32>, here: MediumStack) -> MediumStack {
+    let inside = bitcast<u32>(tables[surface.material * MATERIAL_WORDS + 2u].w) >> MEDIUM_SHIFT;
+    if inside == 0u || dot(toward, surface.facing_normal) > 0.0 {
         return here;
     }
-    if !surface.front {
-        return BLACK;
+    if surface.front {
+        return enter_medium(here, inside);
     }
-#if BLENDS
-    if (bitcast<u32>(tables[word].w) & 255u) == BLEND {
-        return tables[word].xyz;
-    }
-#endif
-    let first = FIRST_FURTHER_WORD + (bitcast<u32>(tables[word + 4u].w) & ((1u << FURTHER_SHIFT) - 1u));
-    return tables[first + EXTINCTION_PARAMETER].xyz;
+    return leave_medium(here, inside);
 }

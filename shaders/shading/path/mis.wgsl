@@ -5,9 +5,9 @@
 // neither overflows nor divides 0 by 0: own is positive wherever the sample exists.
 fn mis_weight(own: f32, other: f32) -> f32 {
     let ratio = planted_ratio(other / own);
-#if HEURISTIC_POWER
-    return 1.0 / (1.0 + ratio * ratio);
-#else
-    return 1.0 / (1.0 + ratio);
-#endif
+    if HAS_HEURISTIC_POWER {
+        return 1.0 / (1.0 + ratio * ratio);
+    } else {
+        return 1.0 / (1.0 + ratio);
+    }
 }

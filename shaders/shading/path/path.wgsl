@@ -6,10 +6,10 @@
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import shading/material/bsdf.wgsl
-#import shading/light/distant.wgsl
+#import shading/light/choice.wgsl
+#import shading/light/sampling.wgsl
 #import shading/light/hidden_emitters.wgsl
 #import shading/path/layer.wgsl
-#import shading/light/sampling.wgsl
 #import shading/light/light_sample.wgsl
 #import shading/path/mis.wgsl
 #import shading/light/outside.wgsl
@@ -45,7 +45,7 @@ fn escaped_radiance(path: Path, depth: u32) -> Spectrum {
     // After the camera or a delta lobe no light sample could have found it.
     if HAS_ENVIRONMENT_SAMPLED && path.pdf_solid_angle >= 0.0 {
         let ray = ray_from_lit_vertex(path);
-        let of_one = environment_pdf_solid_angle(ray, cell_of_lights(ray.origin, facing_of_lit_vertex(path)));
+        let of_one = environment_pdf_solid_angle(ray, light_context(ray.origin, facing_of_lit_vertex(path)));
         let pdf_light = f32(light_samples_at(depth - 1u)) * of_one;
         weight = emission_weight(path.pdf_solid_angle, pdf_light);
         radiance *= weight;
@@ -94,7 +94,7 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
         }
     }
     var radiance = path.throughput * value.value * light.radiance * planted_factor(surface.material);
-    radiance *= volume_share(path, surface, light.wi, light.distance);
+    radiance *= shadow_medium_transmittance(path, surface, light.wi, light.distance);
     let count = f32(light_samples_at(depth));
     // Several samples are as dense together as one of as many times its density.
     let pdf_light = count * light.pdf_solid_angle;
@@ -136,9 +136,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         return shading;
     }
     var surface = hit_surface(incoming.ray, hit);
-#if WEIGHTS_BY_VIEWER
-    surface.by_camera = depth == 1u;
-#endif
+    if HAS_WEIGHTS_BY_VIEWER {
+        surface.by_camera = depth == 1u;
+    }
     // A hit in an instance may come without its distance.
     incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);

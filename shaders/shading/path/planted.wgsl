@@ -2,27 +2,27 @@
 
 // What one material returns is multiplied by this: 1 % too much.
 fn planted_factor(material: u32) -> f32 {
-#if PLANT_BRDF
-    return select(1.0, 1.01, material == PLANTED_MATERIAL);
-#else
-    return 1.0;
-#endif
+    if HAS_PLANT_BRDF {
+        return select(1.0, 1.01, material == PLANTED_MATERIAL);
+    } else {
+        return 1.0;
+    }
 }
 
 // The ratio of densities that a sample's weight is made of: as if there were no other strategy, every sample counts in full.
 fn planted_ratio(ratio: f32) -> f32 {
-#if PLANT_MIS
-    return 0.0;
-#else
-    return ratio;
-#endif
+    if HAS_PLANT_MIS {
+        return 0.0;
+    } else {
+        return ratio;
+    }
 }
 
 // Whether a light gives none when it is sampled.
 fn is_forgotten(light: u32) -> bool {
-#if PLANT_LIGHT
-    return light == PLANTED_LIGHT;
-#else
-    return false;
-#endif
+    if HAS_PLANT_LIGHT {
+        return light == PLANTED_LIGHT;
+    } else {
+        return false;
+    }
 }

@@ -1,4 +1,4 @@
-// A path on its way, and what comes of one of its vertices.
+// A path on its way, and the outcome of one of its vertices.
 #import core/math.wgsl
 #import shading/path/scatterer.wgsl
 #import shading/material/scattering.wgsl
@@ -11,45 +11,39 @@ struct Path {
     throughput: Spectrum,
     // Density of the ray's direction by solid angle; negative after the camera or a delta lobe.
     pdf_solid_angle: f32,
-    // What Russian roulette multiplies throughputs by: the squared index ratios of all refractions so far. Of guided paths one over what they were
-    // expected to bring at their first guided surface, 0 before.
+    // The factor by which Russian roulette scales throughputs: the squared index ratios of all refractions so far. A guided path has one over what
+    // it was expected to bring at its first guided surface, and 0 before.
     roulette_scale: f32,
     // Pixel over the whole film, and the sample's index within the pass.
     pixel: u32,
     sample_in_pass: u32,
     // Vertices at null surfaces so far.
     null_vertices: u32,
-#if LIGHT_CELLS
-    // Which way the surface faces that light was last sampled from, as normal_facing says.
+    // With LIGHT_CELLS, the way that the surface faces from which light was last sampled, as normal_facing says.
     lit_facing: u32,
-#endif
-#if TRANSPARENT_SHADOWS
-    // Where the ray began that went on through the null surfaces last met: light was sampled from there.
+    // With TRANSPARENT_SHADOWS, the origin of the ray that went on through the null surfaces last met: light was sampled from there.
     lit_from: vec3<f32>,
-#endif
-#if ATTENUATION
-    // Of what the ray goes through.
-    extinction: Spectrum,
-#endif
+    // With MEDIA, the media around the ray.
+    media: MediumStack,
 }
 
 struct ShadowRay {
     ray: Ray,
     distance: f32,
-    // What the path gains if nothing is in the way; all 0: there is no shadow ray.
+    // The radiance that the path gains if nothing is in the way; all 0: there is no shadow ray.
     radiance: Spectrum,
 }
 
-// What light samples of a vertex start from.
+// The start of light samples of a vertex.
 struct LitVertex {
-    // As it arrived there.
+    // The path as it arrived there.
     path: Path,
     vertex: u32,
     surface: Surface,
     scatterer: Scatterer,
 }
 
-// What comes of a vertex.
+// The outcome of a vertex.
 struct Shading {
     // The path goes on along its new ray.
     alive: bool,
@@ -63,46 +57,43 @@ struct Shading {
 
 // A path on its first edge.
 fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
-    return Path(
-        ray, WHITE, -1.0, select(1.0, 0.0, HAS_GUIDE), pixel, sample_in_pass, 0u
-#if LIGHT_CELLS
-        , 0u
-#endif
-#if TRANSPARENT_SHADOWS
-        , ray.origin
-#endif
-#if ATTENUATION
-        , BLACK
-#endif
-    );
+    var path: Path;
+    path.ray = ray;
+    path.throughput = WHITE;
+    path.pdf_solid_angle = -1.0;
+    path.roulette_scale = select(1.0, 0.0, HAS_GUIDE);
+    path.pixel = pixel;
+    path.sample_in_pass = sample_in_pass;
+    path.lit_from = ray.origin;
+    return path;
 }
 
 // The path's ray from where light was last sampled: shadow rays from there meet the same surfaces as the path, and go on through null ones
 // as it does. So what both find is shared out by the densities that they have there.
 fn ray_from_lit_vertex(path: Path) -> Ray {
-#if TRANSPARENT_SHADOWS
-    return Ray(path.lit_from, path.ray.direction);
-#else
-    return path.ray;
-#endif
+    if HAS_TRANSPARENT_SHADOWS {
+        return Ray(path.lit_from, path.ray.direction);
+    } else {
+        return path.ray;
+    }
 }
 
-// Which way a surface faces, where the choice of lights depends on that; else 0.
+// The way that a surface faces, where the choice of lights depends on that; else 0.
 fn facing_of(surface: Surface) -> u32 {
-#if LIGHT_CELLS
-    return normal_facing(surface.facing_normal);
-#else
-    return 0u;
-#endif
+    if HAS_LIGHT_CELLS {
+        return normal_facing(surface.facing_normal);
+    } else {
+        return 0u;
+    }
 }
 
-// The same of the surface from which light was last sampled.
+// The way that the surface faces from which light was last sampled; else 0.
 fn facing_of_lit_vertex(path: Path) -> u32 {
-#if LIGHT_CELLS
-    return path.lit_facing;
-#else
-    return 0u;
-#endif
+    if HAS_LIGHT_CELLS {
+        return path.lit_facing;
+    } else {
+        return 0u;
+    }
 }
 
 fn no_shadow_ray() -> ShadowRay {
@@ -132,20 +123,21 @@ fn light_samples_at(depth: u32) -> u32 {
 
 // The path's throughput at the end of its ray, of this length.
 fn arriving_throughput(path: Path, ray_length: f32) -> Spectrum {
-#if ATTENUATION
-    return path.throughput * volume_transmittance(path.extinction, ray_length);
-#else
-    return path.throughput;
-#endif
+    if HAS_MEDIA {
+        return path.throughput * medium_transmittance(innermost(path.media), ray_length);
+    } else {
+        return path.throughput;
+    }
 }
 
-// What is left of light that comes to a surface of the path from a light in direction `wi`.
-fn volume_share(path: Path, surface: Surface, wi: vec3<f32>, ray_length: f32) -> Spectrum {
-#if ATTENUATION
-    return volume_transmittance(extinction_towards(surface, wi, path.extinction), ray_length);
-#else
-    return WHITE;
-#endif
+// The share of light that is left of what a light in direction `wi` sends to a surface of the path. Boundaries of media let no shadow ray through, so
+// the ray stays in the medium where it begins.
+fn shadow_medium_transmittance(path: Path, surface: Surface, wi: vec3<f32>, ray_length: f32) -> Spectrum {
+    if HAS_MEDIA {
+        return medium_transmittance(innermost(media_towards(surface, wi, path.media)), ray_length);
+    } else {
+        return WHITE;
+    }
 }
 
 // The path along the ray that was drawn where it met a surface.
@@ -156,19 +148,16 @@ fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput
     path.pdf_solid_angle = drawn.pdf_solid_angle;
     path.roulette_scale = roulette_scale;
     path.null_vertices += select(0u, 1u, drawn.is_null);
-#if LIGHT_CELLS
-    path.lit_facing = select(facing_of(surface), incoming.lit_facing, drawn.is_null);
-#endif
-#if TRANSPARENT_SHADOWS
-    // Through a null surface goes the ray that was drawn before.
-    path.pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);
-    path.lit_from = select(path.ray.origin, incoming.lit_from, drawn.is_null);
-#endif
-#if ATTENUATION
-    // Nothing lies behind a surface that is not there.
-    if !drawn.is_null {
-        path.extinction = extinction_towards(surface, drawn.wi, incoming.extinction);
+    if HAS_LIGHT_CELLS {
+        path.lit_facing = select(facing_of(surface), incoming.lit_facing, drawn.is_null);
     }
-#endif
+    if HAS_TRANSPARENT_SHADOWS {
+        // Through a null surface goes the ray that was drawn before.
+        path.pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);
+        path.lit_from = select(path.ray.origin, incoming.lit_from, drawn.is_null);
+    }
+    if HAS_MEDIA && !drawn.is_null {
+        path.media = media_towards(surface, drawn.wi, incoming.media);
+    }
     return path;
 }

@@ -16,11 +16,11 @@ struct Scatterer {
 // `choice` picks a part of a blend where one is picked.
 fn load_scatterer(surface: Surface, wo: vec3<f32>, choice: f32) -> Scatterer {
     let bsdf = load_bsdf(surface, wo, choice);
-#if GUIDE
-    return Scatterer(bsdf, guide_at(surface, guided_probability(bsdf)));
-#else
-    return Scatterer(bsdf);
-#endif
+    if HAS_GUIDE {
+        return Scatterer(bsdf, guide_at(surface, guided_probability(bsdf)));
+    } else {
+        return Scatterer(bsdf);
+    }
 }
 
 // The non-delta lobes' f |cos|, and the density with which wi is drawn.
@@ -30,9 +30,9 @@ fn evaluate_scatterer(scatterer: Scatterer, surface: Surface, wo: vec3<f32>, wi:
 #else
     var value = evaluate_bsdf(scatterer.bsdf, surface, wo, wi);
 #endif
-#if NORMAL_SHADOWING
-    value.value *= normal_shadowing(surface.unbent_normal, surface.shading_normal, wi);
-#endif
+    if HAS_NORMAL_SHADOWING {
+        value.value *= normal_shadowing(surface.unbent_normal, surface.shading_normal, wi);
+    }
     return value;
 }
 
@@ -40,9 +40,9 @@ fn evaluate_scatterer(scatterer: Scatterer, surface: Surface, wo: vec3<f32>, wi:
 fn scatter_by(
     scatterer: Scatterer, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
-#if GUIDE
-    return scatter_guided(scatterer.guide, scatterer.bsdf, surface, wo, samples_light, light_wi, choice, u, v);
-#else
-    return scatter(scatterer.bsdf, surface, wo, samples_light, light_wi, choice, u, v);
-#endif
+    if HAS_GUIDE {
+        return scatter_guided(scatterer.guide, scatterer.bsdf, surface, wo, samples_light, light_wi, choice, u, v);
+    } else {
+        return scatter(scatterer.bsdf, surface, wo, samples_light, light_wi, choice, u, v);
+    }
 }

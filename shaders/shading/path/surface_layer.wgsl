@@ -17,27 +17,24 @@ const NOTHING_MET: f32 = 3.0e38;
 // Whether the layer is of what is seen along the drawn direction.
 fn is_followed(drawn: BsdfSample) -> bool {
     let goes_on = drawn.pdf_solid_angle < 0.0 && max_component(drawn.weight) > 0.0;
-#if LAYER_OF_FIRST_SURFACE
-    return goes_on && drawn.is_null;
-#else
-    return goes_on;
-#endif
+    if HAS_LAYER_OF_FIRST_SURFACE {
+        return goes_on && drawn.is_null;
+    } else {
+        return goes_on;
+    }
 }
 
-// Of a surface that a path of this throughput met and that is not followed further.
+// The layer's value at a surface that a path of this throughput met and that is not followed further.
 fn surface_value(throughput: Spectrum, surface: Surface, drawn: BsdfSample) -> vec3<f32> {
-#if LAYER_ALBEDO
-    return throughput * drawn.weight;
-#endif
-#if LAYER_NORMAL
-    return surface.shading_normal;
-#endif
-#if LAYER_POSITION
-    return surface.position;
-#endif
-#if LAYER_DEPTH
-    return vec3<f32>(dot(surface.position - view.position.xyz, view.forward.xyz));
-#endif
+    if HAS_LAYER_ALBEDO {
+        return throughput * drawn.weight;
+    } else if HAS_LAYER_NORMAL {
+        return surface.shading_normal;
+    } else if HAS_LAYER_POSITION {
+        return surface.position;
+    } else {
+        return vec3<f32>(dot(surface.position - view.position.xyz, view.forward.xyz));
+    }
 }
 
 // Follows a path whose ray met `hit`, its vertex number `vertex`, to the surface that the layer is of: replaces `path`, or returns the layer's
@@ -52,9 +49,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         return shading;
     }
     var surface = hit_surface(incoming.ray, hit);
-#if WEIGHTS_BY_VIEWER
-    surface.by_camera = depth_at(incoming, vertex) == 1u;
-#endif
+    if HAS_WEIGHTS_BY_VIEWER {
+        surface.by_camera = depth_at(incoming, vertex) == 1u;
+    }
     incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
     trace_surface(surface.position, surface.shading_normal, surface.material);
     if HAS_HIDDEN_EMITTERS && depth_at(incoming, vertex) == 1u && gives_light(surface.material) {

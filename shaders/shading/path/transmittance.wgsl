@@ -9,16 +9,15 @@
 #import shading/surface.wgsl
 #import shading/material/blend.wgsl
 
-#if BLENDS
 // The second crossing, before `limit`, of a ray and the primitive that it meets at `hit`; its primitive is NONE where there is none. Groups of
 // instances consist of triangles, which are crossed once.
 fn crossed_again(ray: Ray, hit: Hit, limit: f32) -> Hit {
     var again = no_hit(limit);
-#if INSTANCES
-    if hit.instance != NONE {
-        return again;
+    if HAS_INSTANCES {
+        if hit.instance != NONE {
+            return again;
+        }
     }
-#endif
 #if MOTION
     let placed = placed_primitive(primitive_words(hit.primitive));
     let words = PrimitiveWords(placed.p0, placed.p1, placed.p2);
@@ -31,7 +30,6 @@ fn crossed_again(ray: Ray, hit: Hit, limit: f32) -> Hit {
     }
     return again;
 }
-#endif
 
 // The share of light that comes through the primitive that a ray meets at `hit`, and through its far side where that is nearer than `limit`; 0
 // where it is opaque.
@@ -55,7 +53,6 @@ fn hit_transmittance(ray: Ray, hit: Hit, limit: f32) -> f32 {
     return share;
 }
 
-#if BLENDS
 fn is_null_part(run: PartRun, index: u32) -> bool {
     let material = part_material(run, index);
     return (bitcast<u32>(tables[material * MATERIAL_WORDS].w) & 255u) == NULL_SURFACES;
@@ -73,4 +70,3 @@ fn null_weight(surface: Surface, wo: vec3<f32>) -> f32 {
     }
     return min(sum, 1.0);
 }
-#endif

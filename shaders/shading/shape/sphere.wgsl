@@ -15,14 +15,11 @@ fn sphere_point(ray: Ray, hit: Hit, center: vec3<f32>, p1: vec3<f32>, p2: vec3<f
     return ShapePoint(center + p1.x * normal, normal, vec2<f32>(hit.u, hit.v), nothing, nothing, abs(center) + p1.x, 0.0, 0.0);
 }
 
-#if SPHERE_LIGHTS
 fn sphere_direction_pdf(ray: PreparedRay, center: vec4<f32>, l2: vec3<f32>, l3: vec3<f32>) -> f32 {
     let met = intersect_sphere(ray, INFINITY_DISTANCE, center.xyz, vec3<f32>(center.w, 0.0, 0.0), vec3<f32>(0.0)).x > 0.0;
     return select(0.0, sphere_cone_pdf(ray.origin, center.xyz, center.w), met);
 }
-#endif
 
-#if ATTRIBUTES
 // u = atan2(x, -z) / 2π (mod 1), v = acos(-y) / π of the direction from the centre in the sphere's own space: the attributes' first
 // three vec4 hold the rows of the rotation into it.
 fn sphere_uv(first: u32, normal_now: vec3<f32>) -> vec2<f32> {
@@ -66,10 +63,9 @@ fn sphere_tangents(first: u32, normal_now: vec3<f32>) -> Tangents {
     }
     let along_u = row_z * d.x - row_x * d.z;
     let along_v = row_y * radius - (row_x * d.x + row_z * d.z) * (d.y / radius);
-#if MOTION
-    return Tangents(to_now * along_u, to_now * along_v);
-#else
-    return Tangents(along_u, along_v);
-#endif
+    if HAS_MOTION {
+        return Tangents(to_now * along_u, to_now * along_v);
+    } else {
+        return Tangents(along_u, along_v);
+    }
 }
-#endif

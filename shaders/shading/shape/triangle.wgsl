@@ -1,4 +1,5 @@
 // Points of triangles.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/shape/triangle.wgsl
 #import geometry/prepared_ray.wgsl

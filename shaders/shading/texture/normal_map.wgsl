@@ -9,7 +9,6 @@
 #import shading/texture/texture.wgsl
 #import shading/texture/attributes.wgsl
 
-#if BUMP_MAPS
 // The normal of the surface that is lifted along `normal` by a texture's height (Blinn 1978). `along_u` and `along_v` are how its points move
 // with the texture coordinates.
 fn bumped_normal(texture: u32, normal: vec3<f32>, geometric: vec3<f32>, along_u: vec3<f32>, along_v: vec3<f32>, uv: TextureCoordinates) -> vec3<f32> {
@@ -26,14 +25,13 @@ fn bumped_normal(texture: u32, normal: vec3<f32>, geometric: vec3<f32>, along_u:
 
 // The area of the triangle's or quad's edges in texture coordinates, of which tangents have the sign alone.
 fn edge_area(kind: u32, first: u32, by_second: bool) -> f32 {
-#if ATTRIBUTES
-    if first != NONE {
-        return attribute_uv_area(select(first, first + 1u, by_second && kind == KIND_TRIANGLE));
+    if HAS_ATTRIBUTES {
+        if first != NONE {
+            return attribute_uv_area(select(first, first + 1u, by_second && kind == KIND_TRIANGLE));
+        }
     }
-#endif
     return 1.0;
 }
-#endif
 
 // The shading normal as the material's map bends it; as it is where there is no map or no tangent. `shading` is 0 where it is the
 // geometric one, and may be of any length.
@@ -48,16 +46,16 @@ fn mapped_normal(material: u32, kind: u32, first: u32, shading: vec3<f32>, point
     }
     let by_second = lies_by_second_uvs(texture);
     let tangents = tangents_of_set(kind, first, point, bends_by_second_uvs(texture));
-#if BUMP_MAPS
-    if (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_HEIGHTS) != 0u {
-        let per_uv = 1.0 / edge_area(kind, first, by_second);
-        return bumped_normal(texture, normal, point.normal, tangents.along_u * per_uv, tangents.along_v * per_uv, uv);
+    if HAS_BUMP_MAPS {
+        if (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_HEIGHTS) != 0u {
+            let per_uv = 1.0 / edge_area(kind, first, by_second);
+            return bumped_normal(texture, normal, point.normal, tangents.along_u * per_uv, tangents.along_v * per_uv, uv);
+        }
     }
-#endif
     var local = texture_color(texture, uv) * 2.0 - 1.0;
-#if NORMAL_SCALES
-    local = vec3<f32>(local.xy * texture_word(texture, 2u).w, local.z);
-#endif
+    if HAS_NORMAL_SCALES {
+        local = vec3<f32>(local.xy * texture_word(texture, 2u).w, local.z);
+    }
     let bent = from_tangent_space(normal, tangents, local);
     return select(bent, shading, dot(bent, bent) == 0.0);
 }

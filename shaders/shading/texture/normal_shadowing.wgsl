@@ -10,7 +10,6 @@ fn shadows_bent_normals(material: u32) -> bool {
     return texture != NONE && (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_SHADOWS) != 0u;
 }
 
-#if NORMAL_MIRRORING
 // The material's map mirrors normals that it bends away from the viewer.
 fn mirrors_bent_normals(material: u32) -> bool {
     let texture = bitcast<u32>(tables[material * MATERIAL_WORDS + 4u].y);
@@ -30,7 +29,6 @@ fn mirrored_normal_towards(bent: vec3<f32>, unbent: vec3<f32>, facing_normal: ve
     let mirrored = 2.0 * dot(normal, unbent) * unbent - normal;
     return select(facing_normal, mirrored, dot(mirrored, wo) > 0.0 && dot(mirrored, facing_normal) > 0.0);
 }
-#endif
 
 fn squared_tangent(cosine: f32) -> f32 {
     let squared_cosine = clamp(cosine * cosine, 1.0e-12, 1.0);

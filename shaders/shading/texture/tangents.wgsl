@@ -6,10 +6,10 @@
 
 // `first` may be NONE. Of what has one set of coordinates, the directions of that.
 fn tangents_of_set(kind: u32, first: u32, point: ShapePoint, by_second: bool) -> Tangents {
-#if SECOND_UVS
-    if by_second && first != NONE && kind == KIND_TRIANGLE {
-        return edge_tangents(first + 1u, point.along_u, point.along_v);
+    if HAS_SECOND_UVS {
+        if by_second && first != NONE && kind == KIND_TRIANGLE {
+            return edge_tangents(first + 1u, point.along_u, point.along_v);
+        }
     }
-#endif
     return shape_tangents(kind, first, point);
 }

@@ -16,7 +16,7 @@ use crate::sampling::cell_grid::FACINGS;
 use crate::sampling::light_cells::table as light_cells;
 use crate::sampling::{HierarchicalWarp, light_tree};
 use crate::scene::LobeKind;
-use crate::scene::material::{ATTENUATES, FORMS};
+use crate::scene::material::FORMS;
 use crate::scene::validate::MOST_OCTAVES;
 
 /// Most texels along a side of an image: kernels compute with twice as many in signed numbers.
@@ -66,11 +66,12 @@ impl PackedScene {
             return Err(format!("is of kind {:#x}", material.kind_and_form));
         }
         let own_flags = material::EMITS | material::EMITS_TWO_SIDED | material::LETS_THROUGH | material::FRONT_ONLY;
-        let of_blends = material::PARTS_EMIT | material::ENCLOSES_VOLUME;
-        let volume = if material.has_form(ATTENUATES) { material::ENCLOSES_VOLUME } else { 0 };
-        let known_flags = own_flags | if is_blend { of_blends } else { volume };
-        if material.emission_flags & !known_flags != 0 {
+        let known_flags = own_flags | if is_blend { material::PARTS_EMIT } else { 0 };
+        if material.emission_flags & ((1 << material::MEDIUM_SHIFT) - 1) & !known_flags != 0 {
             return Err(format!("has the flags {:#x}", material.emission_flags));
+        }
+        if material.medium() as usize > self.materials.media.len() {
+            return Err(format!("encloses medium {} of {}", material.medium(), self.materials.media.len()));
         }
         let lobe = LobeKind::ALL.get(material.kind() as usize);
         let [count, to_look_up] = lobe.map_or([0, 0], |lobe| lobe.further_counts(material.kind_and_form >> material::FORM_SHIFT));

@@ -9,11 +9,10 @@ use crate::math::luminance;
 use crate::reference::camera::ProjectiveCamera;
 use crate::reference::intersect::{Outline, Owner, PathTime, Ray, World};
 use crate::reference::lights::Lights;
-use crate::reference::volume::Volumes;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::{Guide, LightCells, LitPoint};
-use crate::scene::{ColorInput, Emission, Emitters, LightChoice, RenderSettings, Scene};
+use crate::scene::{ColorInput, Emission, Emitters, LightChoice, Media, RenderSettings, Scene};
 
 impl Integrator {
     /// Takes positions relative to the scene's [center](Scene::center). Fails on what the reference cannot
@@ -30,8 +29,8 @@ impl Integrator {
         let hides = scene.render.emitters == Emitters::Hidden;
         let is_bright = |emission: &Emission| emission.radiance != ColorInput::Constant(DVec3::ZERO);
         let hidden = scene.materials_that(|material| hides && material.emission.as_ref().is_some_and(is_bright));
-        let volumes = Volumes::new(scene);
-        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, volumes, guide: None })
+        let media = Media::of(scene);
+        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, media, guide: None })
     }
 
     /// Draws directions by a guide as well, or by none.

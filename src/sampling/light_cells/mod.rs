@@ -5,7 +5,7 @@
 //! name the lights found to reach it ([`crate::learn::light_cells`]): a light that brings more has more of them. A fixed share of the
 //! choices is made by power among all lights, so that every light has a probability above 0 everywhere, whatever was learned. The probability
 //! of a light is that of both ways together. 32 random bits choose by integers alone, so devices that round differently choose another
-//! light only where a point lies on the border of two cells. `shaders/shading/light/cells.wgsl` is the device's half.
+//! light only where a point lies on the border of two cells. `shaders/shading/light/choice/cells.wgsl` is the device's half.
 
 mod division;
 mod list;

@@ -68,7 +68,7 @@ impl LightCluster {
         }
     }
 
-    /// Light that the cluster can send to a point, as `cluster_seen` in `shaders/shading/light/tree.wgsl` finds it.
+    /// Light that the cluster can send to a point, as `cluster_seen` in `shaders/shading/light/choice/tree.wgsl` finds it.
     fn seen(&self, point: DVec3) -> Seen {
         let away = point - DVec3::from(self.center.map(f64::from));
         let (power, radius) = (f64::from(self.power), f64::from(self.radius));

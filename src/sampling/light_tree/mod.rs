@@ -8,7 +8,7 @@
 //!
 //! 32 random bits choose a light as an arithmetic decoder does: a node splits its range of integers between its clusters, and the bits lie
 //! in one of the two parts. So all probabilities sum to one, few bits are lost on the way down, and devices that round differently choose
-//! another light only where the bits lie next to a border. `shaders/shading/light/tree.wgsl` is the device's half.
+//! another light only where the bits lie next to a border. `shaders/shading/light/choice/tree.wgsl` is the device's half.
 
 mod build;
 pub mod cluster;

@@ -19,7 +19,7 @@ pub use kind::{
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
-pub use principled::{Attenuation, CoatNormalMap, FARTHEST, Principled};
+pub use principled::{Attenuation, CoatNormalMap, Principled};
 
 use super::texture::{ColorInput, TextureId};
 

@@ -14,8 +14,6 @@ pub const LEAST_REFLECTED: f64 = 0.02;
 pub const SHEEN_WEIGHT: f64 = 0.1;
 /// Reflectance of the coat along its normal: that of a film of refractive index 1.5.
 pub const COAT_REFLECTANCE: f64 = 0.04;
-/// Distance that light goes within a volume at most: where it leaves the scene its distance is infinite.
-pub const FARTHEST: f64 = 1e20;
 
 /// The parameters of glTF 2.0's metallic-roughness material and of its extensions. Scalars are the first channel of their colour.
 #[derive(Debug, Clone, PartialEq)]

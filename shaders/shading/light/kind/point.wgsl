@@ -1,4 +1,5 @@
 // A point light: its intensity is the same in every direction.
+#import core/layout.wgsl
 #import shading/light/record.wgsl
 #import shading/light/light_sample.wgsl
 

@@ -354,7 +354,7 @@ impl Kernel<'_> {
         Ok(())
     }
 
-    /// shading/light/tree.wgsl: every way down, and the choice among lights at infinity.
+    /// shading/light/choice/tree.wgsl: every way down, and the choice among lights at infinity.
     fn light_tree(&self) -> Read<()> {
         let mut to_visit = vec![0_u32];
         while let Some(node) = to_visit.pop() {
@@ -376,7 +376,7 @@ impl Kernel<'_> {
         })
     }
 
-    /// shading/light/cells.wgsl: every box, every slot of its cell, and the choice by power.
+    /// shading/light/choice/cells.wgsl: every box, every slot of its cell, and the choice by power.
     fn light_cells(&self) -> Read<()> {
         let word = |index: u32| {
             self.step()?;

@@ -1,9 +1,9 @@
-// The choice of a light by power, alike everywhere.
+// An alias table of all lights, by which their power chooses.
 #import core/sampler.wgsl
 #import shading/light/record.wgsl
 
 // Constant time; the same choice in integers on every device (AliasTable::choose).
-fn choose_light(bits: u32) -> u32 {
+fn light_by_power(bits: u32) -> u32 {
 #if ONE_LIGHT
     return 0u;
 #else
@@ -12,4 +12,8 @@ fn choose_light(bits: u32) -> u32 {
     let word = bitcast<vec4<u32>>(light_word(entry, 0u));
     return select(word.z, entry, remainder < word.y);
 #endif
+}
+
+fn pmf_by_power(light: u32) -> f32 {
+    return light_word(light, 0u).w;
 }

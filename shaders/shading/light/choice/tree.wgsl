@@ -3,6 +3,7 @@
 #import core/octahedron.wgsl
 #import core/sampler.wgsl
 #import geometry/scene.wgsl
+#import shading/light/record.wgsl
 
 // A node takes four vec4 of the tables, two for each of its clusters:
 //   (center and radius of a sphere around it), (power; axis of the cone; cosines of its spread and reach; link)
@@ -10,10 +11,11 @@
 // All random bits but the last value.
 const WHOLE_LIGHT_RANGE: u32 = 0xffffffffu;
 
-struct LightChoice {
-    light: u32,
-    // Probability of the choice; 0 where there is none.
-    pmf: f32,
+// The point.
+alias LightContext = vec3<f32>;
+
+fn light_context(point: vec3<f32>, facing: u32) -> LightContext {
+    return point;
 }
 
 // Two numbers of 16 bits, the first in the lower half.
@@ -72,7 +74,7 @@ fn split_lights(node: u32, point: vec3<f32>, range: u32) -> LightSplit {
     return LightSplit(vec2<u32>(first_words.w, second_words.w), part);
 }
 
-// What part of all random bits a range of them is.
+// The part of all random bits that a range of them is.
 fn light_range_share(range: u32) -> f32 {
     return f32(range) * 2.3283064365386963e-10;
 }
@@ -99,8 +101,8 @@ fn choose_local_light(point: vec3<f32>, bits: u32) -> LightChoice {
     return LightChoice(link & LIGHT_NUMBER_MASK, light_range_share(range));
 }
 
-// The light that 32 random bits choose at a point. Where there are lights at infinity as well, they make half of the choices.
-fn choose_light_at(point: vec3<f32>, bits: u32) -> LightChoice {
+// Lights at infinity make half of the choices where there are any.
+fn choose_light(point: LightContext, bits: u32) -> LightChoice {
     if LIGHTS_AT_INFINITY == 0u {
         return choose_local_light(point, bits);
     }
@@ -110,14 +112,13 @@ fn choose_light_at(point: vec3<f32>, bits: u32) -> LightChoice {
         let remainder = rest * LIGHTS_AT_INFINITY;
         let word = bitcast<vec4<u32>>(tables[FIRST_LIGHT_WORD + entry * LIGHT_WORDS]);
         let light = select(word.z, entry, remainder < word.y);
-        return LightChoice(light, tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS].w);
+        return LightChoice(light, distant_light_pmf(point, light));
     }
     let chosen = choose_local_light(point, rest);
     return LightChoice(chosen.light, 0.5 * chosen.pmf);
 }
 
-// The probability with which that chooses a light inside the scene.
-fn local_light_pmf(light: u32, point: vec3<f32>) -> f32 {
+fn light_pmf(point: LightContext, light: u32) -> f32 {
     var trail = bitcast<u32>(tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 2u].w);
     var range = WHOLE_LIGHT_RANGE;
     var link = 0u;
@@ -132,4 +133,8 @@ fn local_light_pmf(light: u32, point: vec3<f32>) -> f32 {
         }
     }
     return light_range_share(range) * select(1.0, 0.5, LIGHTS_AT_INFINITY > 0u);
+}
+
+fn distant_light_pmf(point: LightContext, light: u32) -> f32 {
+    return tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS].w;
 }

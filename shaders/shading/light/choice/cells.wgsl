@@ -1,19 +1,15 @@
 // The choice of a light by what reaches the place. src/sampling/light_cells does the same, and says how.
 #import core/layout.wgsl
 #import shading/cell_grid.wgsl
-#import shading/light/by_power.wgsl
+#import shading/light/choice/by_power.wgsl
 #import shading/light/record.wgsl
 
 @group(0) @binding(BINDING_LIGHT_CELLS) var<storage, read> light_cells: array<u32>;
 
-struct LightChoice {
-    light: u32,
-    // Probability of the choice.
-    pmf: f32,
-}
+// The first word of the slots of a point's cell; 0 where nothing is known, and the power chooses.
+alias LightContext = u32;
 
-// The first word of the slots of a point's cell; 0 where nothing is known.
-fn light_cell_at(point: vec3<f32>, facing: u32) -> u32 {
+fn light_context(point: vec3<f32>, facing: u32) -> LightContext {
     let begins = vec4<u32>(light_cells[0], light_cells[1], light_cells[2], light_cells[3]);
     let counts = vec3<u32>(light_cells[4], light_cells[5], light_cells[6]);
     let word = grid_word(begins, counts, facing, point);
@@ -45,27 +41,29 @@ fn light_pmf_of_slots(slots: u32, by_power: f32) -> f32 {
     return (f32(slots) + f32(LIGHT_UNITS_BY_POWER) * by_power) * LIGHT_UNIT;
 }
 
-// The light that 32 random bits choose in a point's cell.
-fn choose_light_in(cell: u32, bits: u32) -> LightChoice {
+fn choose_light(cell: LightContext, bits: u32) -> LightChoice {
     if cell == 0u {
-        let light = choose_light(bits);
-        return LightChoice(light, light_word(light, 0u).w);
+        let light = light_by_power(bits);
+        return LightChoice(light, pmf_by_power(light));
     }
     let unit = bits >> (32u - LIGHT_UNIT_BITS);
     if unit >= LIGHT_UNITS_BY_POWER {
         let slot = light_cells[cell + unit - LIGHT_UNITS_BY_POWER];
         let light = slot & LIGHT_SLOT_MASK;
-        return LightChoice(light, light_pmf_of_slots(slot >> LIGHT_SLOT_COUNT_SHIFT, light_word(light, 0u).w));
+        return LightChoice(light, light_pmf_of_slots(slot >> LIGHT_SLOT_COUNT_SHIFT, pmf_by_power(light)));
     }
-    let light = choose_light(bits << (LIGHT_UNIT_BITS - LIGHT_UNITS_BY_POWER_BITS));
-    return LightChoice(light, light_pmf_of_slots(light_slots(cell, light), light_word(light, 0u).w));
+    let light = light_by_power(bits << (LIGHT_UNIT_BITS - LIGHT_UNITS_BY_POWER_BITS));
+    return LightChoice(light, light_pmf_of_slots(light_slots(cell, light), pmf_by_power(light)));
 }
 
-// The probability with which that chooses a light.
-fn light_pmf_in(cell: u32, light: u32) -> f32 {
-    let by_power = light_word(light, 0u).w;
+fn light_pmf(cell: LightContext, light: u32) -> f32 {
+    let by_power = pmf_by_power(light);
     if cell == 0u {
         return by_power;
     }
     return light_pmf_of_slots(light_slots(cell, light), by_power);
+}
+
+fn distant_light_pmf(cell: LightContext, light: u32) -> f32 {
+    return light_pmf(cell, light);
 }
