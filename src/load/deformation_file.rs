@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 use crate::scene::animation::Deformation;
 
 /// The JSON file.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeformationRows {
     pub influences: Vec<Vec<(u32, f32)>>,
     pub targets: Vec<TargetRows>,
 }
 
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TargetRows {
     pub positions: Vec<[f32; 3]>,

@@ -5,6 +5,7 @@
 //!   say it, and `mends` what is wrong in them and replaced; `image_file`: textures and environment maps, and `environment_map`: what of those is
 //!   no lat-long map as it stands.
 //! - `mitsuba`, `gltf`: scenes of other programs, which become scene files in the terms of `import`.
+//! - `place`: where mistakes are reported.
 //! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
 //! - `builtin_scenes`: scenes that are part of the program, among them `examples`, made of all examples; `builtin`: the files they name.
 //! - `toml_text`: values and tables as scene files have them, for those who write some.
@@ -32,6 +33,7 @@ mod mends;
 mod mitsuba;
 mod model;
 mod obj;
+pub(crate) mod place;
 mod ply;
 mod polygon;
 mod presets;

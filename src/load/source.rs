@@ -102,14 +102,14 @@ impl SceneSource {
 
 /// Reads a model with the material that is asked for.
 fn load_model(path: &Path, view: &ModelView, access: Access) -> Result<Scene, SceneError> {
-    let Some(material) = &view.material else { return file::load_model(path, view.smooth, access) };
+    let Some(material) = &view.material else { return file::load_model(path, view.smooth, None, access) };
     let library = Path::new(material);
     if library.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         let read = input::read(library, most_scene_bytes());
         let bytes = read.map_err(|error| SceneError::in_file(show(library), format!("cannot be read: {error}")))?;
         let (text, _) = encoding::decode(&bytes);
         let folder = library.parent().unwrap_or(Path::new(""));
-        return file::load_model_of(path, view.smooth, (&show(library), &text, folder), access);
+        return file::load_model(path, view.smooth, Some((&show(library), &text, folder)), access);
     }
     let Some(text) = presets::preset(material) else {
         let names: Vec<&str> = presets::preset_names().collect();
@@ -118,7 +118,7 @@ fn load_model(path: &Path, view: &ModelView, access: Access) -> Result<Scene, Sc
             SceneError::in_file(material, "is no material").with_help(format!("{help}; or a .toml file with a [[material]]"))
         );
     };
-    file::load_model_of(path, view.smooth, (material, text, Path::new("")), access)
+    file::load_model(path, view.smooth, Some((material, text, Path::new(""))), access)
 }
 
 /// As many bytes as can be parsed in the memory that is free: the tree of a text takes a hundred times as much at worst.

@@ -9,6 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
+use super::reference::TextureName;
 use super::value::{Checked, Exactly, Located, NonNegative, Rule, Temperature, triple};
 use crate::black_body::black_body;
 use crate::math::srgb_to_linear_f64;
@@ -35,7 +36,7 @@ pub enum Scalar<R> {
 /// `{ texture = "name", … }`, its factor a colour or a number.
 #[derive(Debug, Clone)]
 pub struct TextureReference<F> {
-    pub texture: Located<String>,
+    pub texture: Located<TextureName>,
     pub channel: Option<Channel>,
     pub factor: Option<F>,
 }
@@ -46,7 +47,7 @@ pub struct TextureReference<F> {
 #[schemars(rename = "TextureOfColours")]
 struct ColourTexture {
     /// A `[[texture]]`'s name.
-    texture: Located<String>,
+    texture: Located<TextureName>,
     /// The channel that is taken for a grey; the colour when left out.
     channel: Option<ChannelName>,
     /// Multiplies the texture, 1 when left out.
@@ -57,7 +58,7 @@ struct ColourTexture {
 #[derive(Debug, Clone, serde::Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with the key `texture` or `kelvin`")]
 struct ColourTable {
-    texture: Option<Located<String>>,
+    texture: Option<Located<TextureName>>,
     channel: Option<ChannelName>,
     kelvin: Option<Checked<Temperature>>,
     factor: Option<Rgb<NonNegative>>,
@@ -118,7 +119,7 @@ fn hexadecimal(text: &str) -> Option<DVec3> {
 #[schemars(rename = "TextureOfNumbers")]
 struct ScalarTexture {
     /// A `[[texture]]`'s name.
-    texture: Located<String>,
+    texture: Located<TextureName>,
     /// The channel that counts; the red one when left out.
     channel: Option<ChannelName>,
     /// Multiplies the texture, 1 when left out.

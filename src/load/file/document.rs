@@ -10,7 +10,8 @@ use toml::de::{DeTable, DeValue};
 use super::reader::{self, Mistake, Node};
 use super::wording;
 use crate::load::error::{MOST_ERRORS, SceneError};
-use crate::load::import::{Origin, Text};
+use crate::load::import::{PlacedText, Text};
+use crate::load::place::{Origin, Place};
 
 /// A scene file's text.
 #[derive(Clone)]
@@ -21,13 +22,13 @@ pub struct Document<'a> {
     /// Imported text, which is parsed by itself: blank as far as `text` goes, so that places in both are told apart.
     imported: &'a str,
     /// What parts of the text were made from, where no person wrote it.
-    pub origins: &'a [Origin],
+    pub origins: &'a [PlacedText],
     /// What the text was parsed into, if it was: large texts take long.
     tree: Arc<OnceLock<Node<'a>>>,
 }
 
 impl<'a> Document<'a> {
-    pub fn new(name: &'a str, text: &'a str, origins: &'a [Origin]) -> Self {
+    pub fn new(name: &'a str, text: &'a str, origins: &'a [PlacedText]) -> Self {
         Self { name, text, imported: "", origins, tree: Arc::default() }
     }
 
@@ -60,9 +61,16 @@ impl<'a> Document<'a> {
         reader::read_part(self.root()?, key, None).map_err(|mistake| self.translate(mistake))
     }
 
-    /// All that keeps the text from being read, of each table and each entry of a list the first mistake. `first` is what the whole
-    /// text was refused for; `Part` is a file of which anything may be missing.
-    pub fn all_mistakes<Part: DeserializeOwned>(&self, first: SceneError) -> SceneError {
+    /// Reads the text into a type of which any part may be missing.
+    ///
+    /// # Errors
+    /// The first mistake of each table and of each entry of a list.
+    pub fn read_whole<T: DeserializeOwned>(&self) -> Result<T, SceneError> {
+        self.read().map_err(|first| self.all_mistakes::<T>(first))
+    }
+
+    /// All that keeps the text from being read; `first` is what the whole text was refused for.
+    fn all_mistakes<Part: DeserializeOwned>(&self, first: SceneError) -> SceneError {
         let Ok(root) = self.root() else { return first };
         let mut parts = Vec::new();
         for (key, value) in root {
@@ -83,9 +91,17 @@ impl<'a> Document<'a> {
         SceneError::of_all(found).unwrap_or(first)
     }
 
+    /// An error about what is stated at a place.
+    pub fn error(&self, place: &Place, message: impl Into<String>) -> SceneError {
+        match place {
+            Place::Text { .. } => self.error_in_text(place.span(), message),
+            Place::Imported(origin) => origin.error(message),
+        }
+    }
+
     /// An error about the value written at `span`.
-    pub fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
-        let is_named = self.origin_at(span.start).is_some_and(|origin| !origin.place.key.is_empty());
+    fn error_in_text(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
+        let is_named = self.origin_at(span.start).is_some_and(|origin| !origin.key.is_empty());
         let key = if is_named { String::new() } else { self.key_at(&span) };
         self.error_at(span, key, message.into())
     }
@@ -95,17 +111,14 @@ impl<'a> Document<'a> {
         let Some(origin) = self.origin_at(span.start) else {
             return SceneError::in_text(self.name, self.text, span, message).with_key(key);
         };
-        let error = match (origin.place.line, origin.place.file.as_str()) {
-            (Some(line), file) => SceneError::in_line(file, line, message),
-            (None, "") => SceneError::in_file(self.name, message),
-            (None, file) => SceneError::in_file(file, message),
-        };
-        error.with_key(if origin.place.key.is_empty() { &key } else { &origin.place.key })
+        let file = if origin.file.is_empty() { self.name.to_owned() } else { origin.file.clone() };
+        let key = if origin.key.is_empty() { key } else { origin.key.clone() };
+        Origin { file, line: origin.line, key }.error(message)
     }
 
     /// What the text at a byte was made from.
     fn origin_at(&self, at: usize) -> Option<&'a Origin> {
-        self.origins[..self.origins.partition_point(|origin| origin.start <= at)].last()
+        self.origins[..self.origins.partition_point(|origin| origin.start <= at)].last().map(|text| &text.place)
     }
 
     fn parsed(&self) -> Result<&Node<'a>, SceneError> {
@@ -138,18 +151,18 @@ impl<'a> Document<'a> {
     fn translate(&self, mistake: Mistake) -> SceneError {
         let span = mistake.span.unwrap_or(0..self.text.len().min(1));
         let (message, help) = wording::in_plain_words(&mistake.message);
-        let located = self.error(span, message);
+        let located = self.error_in_text(span, message);
         match help {
             Some(help) => located.with_help(help),
             None => located,
         }
     }
 
-    /// The bytes of a key's value in a table at the top; none where it is not written.
-    pub fn span_of(&self, table: &str, key: &str) -> Range<usize> {
-        let Ok(root) = self.root() else { return 0..0 };
+    /// The place of a key's value in a table at the top; no bytes where it is not written.
+    pub fn place_of(&self, table: &str, key: &str) -> Place {
+        let Ok(root) = self.root() else { return Place::default() };
         let value = root.get(table).and_then(|table| table.get_ref().get(key));
-        value.map_or(0..0, Spanned::span)
+        value.map_or_else(Place::default, |value| value.span().into())
     }
 
     /// The dotted path of the innermost key or value around `span`; empty at the top.

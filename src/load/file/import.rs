@@ -21,25 +21,25 @@ use crate::load::import_file::{self, ImportFormat};
 use crate::scene::{ImportReport, Transform};
 
 /// A scene of another program: all of its shapes, materials and lights, besides those of this file. Its picture size and settings are left out.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "Import")]
 pub struct ImportEntry {
     /// Path of a `.gltf`, `.glb` or Mitsuba `.xml` file, relative to the scene file.
     #[schemars(extend("pattern" = "\\.([gG][lL][tT][fF]|[gG][lL][bB]|[xX][mM][lL])$"))]
-    file: Located<String>,
+    pub file: Located<String>,
     /// The name of the file's camera that stands for `[camera]`; the first one where neither is written.
-    camera: Option<Located<String>>,
+    pub camera: Option<Located<String>>,
     /// The name of the variant of a glTF's materials that is shown.
-    variant: Option<Located<String>>,
+    pub variant: Option<Located<String>>,
     /// Steps applied in this order to all of it, or a matrix.
-    transform: Option<Located<TransformEntry>>,
+    pub transform: Option<Located<TransformEntry>>,
     /// The imported file's materials, by their names, that materials of this file take the place of.
     #[serde(default)]
-    materials: BTreeMap<String, Located<String>>,
+    pub materials: BTreeMap<String, Located<String>>,
     /// What `$key` stands for in a Mitsuba file.
     #[serde(default)]
-    define: BTreeMap<String, String>,
+    pub define: BTreeMap<String, String>,
 }
 
 /// The part of a file that says what is imported.
@@ -88,7 +88,7 @@ pub fn expand<'a>(
             camera_is_open = false;
         } else if let (Some(camera), true) = (&entry.camera, has_camera) {
             let message = "the scene has a [camera], and a camera of an imported file would take its place";
-            return Err(document.error(camera.span.clone(), message).with_help("leave out one of them"));
+            return Err(document.error(&camera.place, message).with_help("leave out one of them"));
         } else {
             description.camera = None;
         }
@@ -123,14 +123,14 @@ fn read(
 ) -> Result<Description, SceneError> {
     let path = folder.join(&entry.file.value);
     if ImportFormat::of(&path).is_none() {
-        let error = document.error(entry.file.span.clone(), "an imported file ends in .gltf, .glb or .xml");
+        let error = document.error(&entry.file.place, "an imported file ends in .gltf, .glb or .xml");
         return Err(match formats::advice(&path) {
             Some((_, advice)) => error.with_help(advice),
             None => error,
         });
     }
     if !access.files.exists(&path) {
-        return Err(document.error(entry.file.span.clone(), format!("there is no file {}", show(&path))));
+        return Err(document.error(&entry.file.place, format!("there is no file {}", show(&path))));
     }
     let options = LoadOptions {
         definitions: entry.define.iter().map(|(key, value)| (key.clone(), value.clone())).collect(),
@@ -157,7 +157,7 @@ fn replace_materials(document: &Document<'_>, entry: &ImportEntry, description: 
             let names: Vec<&str> = description.materials.iter().filter_map(|material| material.keys.text("name")).collect();
             let help = super::wording::did_you_mean_name(theirs, &names).unwrap_or_default();
             let message = format!("{} has no material named `{theirs}`", entry.file.value);
-            return Err(document.error(ours.span.clone(), message).with_help(help));
+            return Err(document.error(&ours.place, message).with_help(help));
         }
     }
     Ok(())

@@ -3,23 +3,24 @@
 //! `document` reads the text into the types of `syntax`, which know every key and range; `resolve` looks up names and reads the
 //! files that are named. Each complains about the place where the mistake is written.
 
-mod colour;
+pub(super) mod colour;
 mod document;
 mod import;
-mod instance;
-mod keyframes;
-mod light;
+pub(super) mod instance;
+pub(super) mod keyframes;
+pub(super) mod light;
 mod lit_instances;
-mod material;
+pub(super) mod material;
 mod nested;
-mod node;
+pub(super) mod node;
 mod reader;
+pub(super) mod reference;
 mod resolve;
 mod resolver;
 mod schema;
-mod shape;
-mod syntax;
-mod value;
+pub(super) mod shape;
+pub(super) mod syntax;
+pub(super) mod value;
 mod wording;
 pub(crate) mod writer;
 
@@ -36,7 +37,7 @@ pub(crate) use material::write_kind;
 pub use schema::{json_schema, make_json_schema};
 pub use shape::examples as shape_examples;
 pub(crate) use shape::write_geometry;
-use syntax::{PartOfFile, SceneFile};
+use syntax::SceneFile;
 pub(super) use wording::did_you_mean;
 
 use crate::load::access::Access;
@@ -82,7 +83,10 @@ pub(super) fn load_description(description: Description, name: &str, mut access:
 
 fn load_whole<'a>(document: Document<'a>, folder: &'a Path, access: Access) -> Result<Scene, SceneError> {
     let name = document.name;
-    let file: SceneFile = document.read().map_err(|first| document.all_mistakes::<PartOfFile>(first))?;
+    let file: SceneFile = document.read_whole()?;
+    if file.camera.is_none() {
+        return Err(document.error(&(0..document.text.len()).into(), "the key `camera` is missing"));
+    }
     let mut scene = resolve::resolve(document.without_tree(), folder, file, access)?;
     scene.name = stem(name);
     if !scene.has_light() {
@@ -94,18 +98,14 @@ fn load_whole<'a>(document: Document<'a>, folder: &'a Path, access: Access) -> R
     Ok(scene)
 }
 
-/// Reads a model file alone: its meshes with its own materials, in a scene without a camera of its own and without lights.
-pub(super) fn load_model(path: &Path, smooth: Option<bool>, access: Access) -> Result<Scene, SceneError> {
-    resolve::resolve_model(path, smooth, access)
-}
-
-/// As [`load_model`], with the last material of a scene file's text in place of the model's own. `name` is what errors call that file, and
-/// paths in it are relative to `folder`.
-pub(super) fn load_model_of(
+/// Reads a model file alone: its meshes in a scene without a camera of its own and without lights. They have their own materials, or the last
+/// one of a scene file's text: `materials` are what errors call that file, its text, and the folder that paths in it are relative to.
+pub(super) fn load_model(
     path: &Path,
     smooth: Option<bool>,
-    (name, text, folder): (&str, &str, &Path),
+    materials: Option<(&str, &str, &Path)>,
     access: Access,
 ) -> Result<Scene, SceneError> {
-    resolve::resolve_model_of(path, smooth, (Document::new(name, text, &[]), folder), access)
+    let materials = materials.map(|(name, text, folder)| (Document::new(name, text, &[]), folder));
+    resolve::resolve_model(path, smooth, materials, access)
 }

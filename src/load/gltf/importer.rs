@@ -12,7 +12,8 @@ use super::known::{EXTENSIONS, Unread, WITH_FALLBACK, find_unread};
 use super::made::{MadeMaterial, MadePrimitive, WeightTrack};
 use super::texture_role::{TextureRole, UvsOf};
 use crate::load::files::Files;
-use crate::load::import::{Description, FileReference, Place};
+use crate::load::import::{Description, FileReference};
+use crate::load::place::Origin;
 use crate::load::printable::short_list;
 
 /// The properties that tell textures apart: index, role of the texels, placement, coordinates, and the texture by which
@@ -45,8 +46,8 @@ pub struct Importer<'a> {
 }
 
 impl Importer<'_> {
-    pub fn place(&self, key: &str) -> Place {
-        Place { file: self.name.clone(), line: None, key: key.to_owned() }
+    pub fn place(&self, key: &str) -> Origin {
+        Origin { file: self.name.clone(), line: None, key: key.to_owned() }
     }
 
     pub fn drop(&mut self, what: impl Into<String>, key: &str, instead: &str) {

@@ -140,7 +140,7 @@ mod tests {
             let folder = std::path::Path::new("nowhere");
             scene.hold_in(&mut files, folder);
             let Some(Value::File(file)) = keys.get("file") else { panic!("it names a file") };
-            let picture = crate::load::image_file::Pictures::new(files).read(&folder.join(scene.held_path(file)), None);
+            let picture = crate::load::image_file::Pictures::new(files).read_file(&folder.join(scene.held_path(file)), None);
             let image = picture.expect("it is a picture").image;
             for (face, corners) in faces.iter().enumerate() {
                 for [b, c] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.3, 0.3], [0.1, 0.8], [0.45, 0.55]] {

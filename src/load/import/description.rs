@@ -12,6 +12,7 @@ use super::place_file::{PLACE_NUMBERS, PlaceFormat, place_rows, write_places};
 use super::placed::{matrix_of, matrix_value};
 use crate::load::error::SceneError;
 use crate::load::files::Files;
+use crate::load::place::Origin;
 use crate::scene::{ImportReport, Mesh};
 
 /// A scene in the terms of scene files, and what it names that has no file of its own.
@@ -57,34 +58,10 @@ pub enum HeldContent {
     Bytes(Arc<[u8]>),
 }
 
-/// Where something stands in the imported file.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Place {
-    /// As the user named the file.
-    pub file: String,
-    /// From 1; None in files that have no lines.
-    pub line: Option<usize>,
-    /// What it is called there, as `materials[3]`.
-    pub key: String,
-}
-
-impl std::fmt::Display for Place {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.file)?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
-        }
-        if !self.key.is_empty() {
-            write!(f, ": {}", self.key)?;
-        }
-        Ok(())
-    }
-}
-
 /// A table of a scene file and what it was made from.
 #[derive(Debug, Clone, Default)]
 pub struct Entry {
-    pub place: Place,
+    pub place: Origin,
     pub keys: Keys,
 }
 
@@ -92,7 +69,7 @@ pub struct Entry {
 #[derive(Debug, Clone, Default)]
 pub struct GroupOfShapes {
     pub name: String,
-    pub place: Place,
+    pub place: Origin,
     /// `[[group.shape]]`
     pub shapes: Vec<Entry>,
 }
@@ -122,7 +99,7 @@ impl Description {
     }
 
     /// Adds shapes of meshes as a group that stands in all of these places.
-    pub fn add_instances(&mut self, name: &str, place: &Place, shapes: Vec<Entry>, places: &[DAffine3]) {
+    pub fn add_instances(&mut self, name: &str, place: &Origin, shapes: Vec<Entry>, places: &[DAffine3]) {
         let name = self.group_names.free(name);
         self.groups.push(GroupOfShapes { name: name.clone(), place: place.clone(), shapes });
         let keys = Keys::new().with("group", name.as_str());

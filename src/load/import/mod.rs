@@ -16,10 +16,10 @@ mod within;
 
 pub use crate::scene::ImportReport;
 pub use attribute::Blocks;
-pub use description::{Description, Entry, HeldContent, Place};
+pub use description::{Description, Entry, HeldContent};
 pub use keys::{FileReference, Keys, Value, list};
 pub use mesh::{cylinder, disk, grid_sphere, smooth_by_index, square, unit_cube};
 pub use place_file::{PLACE_NUMBERS, PlaceFormat, pays_as_instances, place_rows, write_places};
 pub use placed::{camera_keys, is_uniform, matrix_of, matrix_value, world_direction};
 pub use ply_file::write_ply;
-pub use text::{Origin, Text};
+pub use text::{PlacedText, Text};

@@ -1,7 +1,8 @@
 //! A description as the text of a scene file.
 
-use super::description::{Description, Entry, Place};
+use super::description::{Description, Entry};
 use super::keys::{FileReference, Keys, Value};
+use crate::load::place::Origin;
 use crate::load::toml_text::{line, list, number, table, text};
 
 /// Text of a scene file, and what its parts were made from.
@@ -9,20 +10,20 @@ use crate::load::toml_text::{line, list, number, table, text};
 pub struct Text {
     pub text: String,
     /// In the order of the text.
-    pub origins: Vec<Origin>,
+    pub origins: Vec<PlacedText>,
 }
 
 /// From this byte on, up to the next origin, the text was made from what stands there.
 #[derive(Debug, Clone)]
-pub struct Origin {
+pub struct PlacedText {
     pub start: usize,
-    pub place: Place,
+    pub place: Origin,
 }
 
 impl Text {
     /// Appends the description. `file_name` says how files are written.
     pub fn push(&mut self, description: &Description, file_name: &dyn Fn(&FileReference) -> String) {
-        let whole = Place::default();
+        let whole = Origin::default();
         for (name, keys) in [("film", &description.film), ("render", &description.render)] {
             if !keys.is_empty() {
                 self.table(&format!("[{name}]"), &whole, keys, file_name);
@@ -61,11 +62,11 @@ impl Text {
         self.table(heading, &entry.place, &entry.keys, file_name);
     }
 
-    fn table(&mut self, heading: &str, place: &Place, keys: &Keys, file_name: &dyn Fn(&FileReference) -> String) {
+    fn table(&mut self, heading: &str, place: &Origin, keys: &Keys, file_name: &dyn Fn(&FileReference) -> String) {
         if !self.text.is_empty() {
             self.text.push('\n');
         }
-        self.origins.push(Origin { start: self.text.len(), place: place.clone() });
+        self.origins.push(PlacedText { start: self.text.len(), place: place.clone() });
         self.text.push_str(heading);
         self.text.push('\n');
         for (key, value) in &keys.0 {

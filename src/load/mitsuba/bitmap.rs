@@ -87,7 +87,7 @@ impl Converter<'_> {
             None => {
                 let space = linear.then_some(ColorSpace::Linear);
                 // A picture that cannot be read is told when the texture is.
-                let picture = Pictures::new(self.files.clone()).read(path, space).ok().map(|picture| picture.image);
+                let picture = Pictures::new(self.files.clone()).read_file(path, space).ok().map(|picture| picture.image);
                 let wanted = picture.filter(|image| texels == Texels::Normals || is_decoded || !is_grey(image));
                 let bytes = wanted.and_then(|image| as_exr(&image, texels));
                 let file = bytes.map(|bytes| self.scene.hold_bytes(stem, "exr", bytes));
@@ -127,7 +127,7 @@ impl Converter<'_> {
             }
             Some(_) => PathBuf::new(),
         };
-        let picture = Pictures::new(files).read(&path, space);
+        let picture = Pictures::new(files).read_file(&path, space);
         let mean = picture.map_or(DVec3::ONE, |picture| {
             let texels = &picture.image.texels;
             texels.colors().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64

@@ -180,7 +180,7 @@ impl Converter<'_> {
         let Input::Texture(name, _) = input else { return Ok(1.0) };
         let entry = self.scene.textures.iter().find(|entry| entry.keys.text("name") == Some(name));
         let Some(Value::File(FileReference::Disk(path))) = entry.and_then(|entry| entry.keys.get("file")) else { return Ok(1.0) };
-        let picture = Pictures::new(self.files.clone()).read(path, None);
+        let picture = Pictures::new(self.files.clone()).read_file(path, None);
         let picture = picture.map_err(|reason| plugin.error(format!("{}: {reason}", show(path))))?;
         Ok(f64::from(picture.image.width) / f64::from(picture.image.height))
     }

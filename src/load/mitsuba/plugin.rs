@@ -6,7 +6,7 @@ use std::rc::Rc;
 use glam::{DAffine3, DVec3};
 
 use crate::load::error::SceneError;
-use crate::load::import::Place;
+use crate::load::place::Origin;
 
 /// An instance of a plugin: an element with its properties and the plugins within.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ pub struct Plugin {
     /// The plugin, as `diffuse`.
     pub name: String,
     pub id: String,
-    pub place: Place,
+    pub place: Origin,
     pub properties: Vec<Property>,
     pub children: Vec<Child>,
     pub within: Within,
@@ -45,7 +45,7 @@ pub struct Within {
 pub struct Property {
     pub name: String,
     pub value: PropertyValue,
-    pub place: Place,
+    pub place: Origin,
     /// Something asked for it, so that it has an effect.
     pub used: Cell<bool>,
 }
@@ -223,12 +223,8 @@ impl Plugin {
 }
 
 /// An error at a place of an imported file.
-pub fn error_at(place: &Place, message: impl Into<String>) -> SceneError {
-    let error = match place.line {
-        Some(line) => SceneError::in_line(&place.file, line, message),
-        None => SceneError::in_file(&place.file, message),
-    };
-    error.with_key(&place.key)
+pub fn error_at(place: &Origin, message: impl Into<String>) -> SceneError {
+    place.error(message)
 }
 
 fn wrong_kind(property: &Property, expected: &str) -> SceneError {

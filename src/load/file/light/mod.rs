@@ -1,6 +1,12 @@
 //! `[[light]]`: a file for each light that is not a surface, with the keys it is written by.
 
+pub mod directional;
+pub mod environment;
 mod keys;
+pub mod point;
+pub mod projector;
+pub mod sky;
+pub mod spot;
 
 use std::sync::Arc;
 
@@ -19,10 +25,8 @@ use crate::scene::light::light_table;
 /// The entries of a scene file, by the rows of the table of lights.
 macro_rules! entries {
     ($($group:ident { $($variant:ident($type:ident) $module:ident $switch:ident $($needed:ident)*,)* })*) => {
-        $($(mod $module;)*)*
-
         /// A light that is not a surface. Surfaces emit through their material.
-        #[derive(Debug, Deserialize, JsonSchema)]
+        #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(rename_all = "snake_case")]
         #[schemars(tag = "type")]
         pub enum LightEntry {
@@ -40,7 +44,7 @@ macro_rules! entries {
         impl Located<LightEntry> {
             fn resolve(&self, resolver: &mut Resolver<'_>) -> Result<Light, SceneError> {
                 match &self.value {
-                    $($(LightEntry::$variant(keys) => keys.resolve(resolver, &self.span).map(Light::$variant),)*)*
+                    $($(LightEntry::$variant(keys) => keys.resolve(resolver, &self.place).map(Light::$variant),)*)*
                 }
             }
         }
@@ -79,7 +83,7 @@ impl Resolver<'_> {
         for entry in written {
             let light = entry.resolve(self).and_then(|light| {
                 if light.is_environment() && self.scene.lights.iter().any(Light::is_environment) {
-                    return Err(self.error(&entry.span, "a scene has one environment or sky, this is the second"));
+                    return Err(self.error(&entry.place, "a scene has one environment or sky, this is the second"));
                 }
                 Ok(light)
             });

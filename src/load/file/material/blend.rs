@@ -36,7 +36,7 @@ impl MaterialKeys for Keys {
         for part in self.materials.iter() {
             if resolver.scene.materials[resolver.material_id(part)?].normal_map.is_some() {
                 let message = format!("`{}` has a normal map and is part of a blend", part.value);
-                return Err(resolver.error(&part.span, message).with_help("give the normal map to the blend"));
+                return Err(resolver.error(&part.place, message).with_help("give the normal map to the blend"));
             }
         }
         Ok(())

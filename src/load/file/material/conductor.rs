@@ -90,7 +90,7 @@ impl MaterialKeys for Keys {
             (None, None, None, Some(reflectance)) => ConductorFresnel::Reflectance(resolver.colour(&reflectance.value)?),
             _ => {
                 let message = "a conductor needs both `eta` and `k`, or `preset` alone, or `reflectance` alone";
-                return Err(resolver.error(&self.name.span, message));
+                return Err(resolver.error(&self.name.place, message));
             }
         };
         let facets = FacetKeys {

@@ -1,9 +1,21 @@
 //! `[[material]]`: a file for each type, with the keys it is written by and what they mean.
 
-mod blend_weight;
+pub mod blend;
+pub mod blend_weight;
+pub mod conductor;
+pub mod diffuse;
+pub mod emissive;
+pub mod glass;
+pub mod glossy;
 mod keys;
-mod opacity;
-mod roughness;
+pub mod mirror;
+pub mod opacity;
+pub mod pass;
+pub mod phong;
+pub mod plastic;
+pub mod principled;
+pub mod rough_glass;
+pub mod roughness;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -18,10 +30,8 @@ use crate::scene::{Emission, MaterialKind};
 /// The entries of a scene file, by the rows of the table of materials.
 macro_rules! entries {
     ($($material:ident $module:ident { $($lobe:tt)* })*) => {
-        $(mod $module;)*
-
         /// What surfaces are made of.
-        #[derive(Debug, Deserialize, JsonSchema)]
+        #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(rename_all = "snake_case")]
         #[schemars(tag = "type")]
         pub enum MaterialEntry { $($material($module::Keys),)* }

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use crate::load::error::SceneError;
 use crate::load::file::colour::{ChannelName, NumberOr};
+use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, Located};
 use crate::scene::{BlendWeight, Channel, ChannelInput, ColorInput};
@@ -17,7 +18,7 @@ pub type Opacity = NumberOr<Fraction, OpacityTexture>;
 #[serde(deny_unknown_fields, expecting = "a table with the key `texture`")]
 pub struct OpacityTexture {
     /// A `[[texture]]`'s name.
-    texture: Located<String>,
+    texture: Located<TextureName>,
     /// The channel that counts; the red one when left out.
     channel: Option<ChannelName>,
     /// Multiplies the texture, 1 when left out.

@@ -22,10 +22,10 @@ impl ShapeKeys for Keys {
         let (min, max) = (vector(self.min), vector(self.max.value));
         let edges = max - min;
         if edges.min_element() < 0.0 {
-            return Err(resolver.error(&self.max.span, "the box's `max` is below its `min`"));
+            return Err(resolver.error(&self.max.place, "the box's `max` is below its `min`"));
         }
         if edges.to_array().into_iter().filter(|&edge| edge == 0.0).count() > 1 {
-            return Err(resolver.error(&self.max.span, "the box has no area: at most one of its edges can have length 0"));
+            return Err(resolver.error(&self.max.place, "the box has no area: at most one of its edges can have length 0"));
         }
         Ok(Cuboid { min, max })
     }

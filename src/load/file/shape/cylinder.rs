@@ -28,7 +28,7 @@ impl ShapeKeys for Keys {
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Cylinder, SceneError> {
         let (from, to) = (vector(self.from), vector(self.to.value));
         if (to - from).length() == 0.0 {
-            return Err(resolver.error(&self.to.span, "the cylinder has no length: `from` and `to` are the same point"));
+            return Err(resolver.error(&self.to.place, "the cylinder has no length: `from` and `to` are the same point"));
         }
         Ok(Cylinder { from, to, radius: self.radius.0 })
     }

@@ -22,7 +22,7 @@ impl ShapeKeys for Keys {
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Rectangle, SceneError> {
         let (edge_u, edge_v) = (vector(self.edge_u.value), vector(self.edge_v.value));
         if edge_u.cross(edge_v).length() <= 1e-9 * edge_u.length() * edge_v.length() {
-            return Err(resolver.error(&self.edge_v.span, "the rectangle has no area: its edges are parallel or of length 0"));
+            return Err(resolver.error(&self.edge_v.place, "the rectangle has no area: its edges are parallel or of length 0"));
         }
         Ok(Rectangle { corner: vector(self.corner), edge_u, edge_v })
     }

@@ -26,7 +26,7 @@ use super::shape::ShapeEntry;
 use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 #[schemars(title = "gpt scene")]
 #[schemars(extend("required" = [], "anyOf" = [{ "required": ["camera"] }, { "required": ["import"] }]))]
@@ -37,7 +37,9 @@ pub struct SceneFile {
     pub render: RenderTable,
     #[serde(default)]
     pub output: OutputTable,
-    pub camera: CameraTable,
+    /// It may come from an imported file.
+    #[serde(default)]
+    pub camera: Option<CameraTable>,
     #[serde(default)]
     pub animation: Option<AnimationTable>,
     #[serde(default)]
@@ -54,47 +56,12 @@ pub struct SceneFile {
     pub instance: Vec<Located<InstanceEntry>>,
     #[serde(default)]
     pub light: Vec<Located<LightEntry>>,
-    /// Read before the rest, which then has what is imported.
     #[serde(default)]
-    #[allow(dead_code, reason = "`file::import` reads it by itself")]
-    import: Vec<ImportEntry>,
-}
-
-/// A scene file of which anything may be missing, to find what is wrong with the rest.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a scene")]
-#[allow(dead_code, reason = "it is read for its mistakes alone")]
-pub struct PartOfFile {
-    #[serde(default)]
-    film: Option<FilmTable>,
-    #[serde(default)]
-    render: Option<RenderTable>,
-    #[serde(default)]
-    output: Option<OutputTable>,
-    #[serde(default)]
-    camera: Option<CameraTable>,
-    #[serde(default)]
-    animation: Option<AnimationTable>,
-    #[serde(default)]
-    node: Vec<Located<NodeEntry>>,
-    #[serde(default)]
-    pub texture: Vec<TextureEntry>,
-    #[serde(default)]
-    pub material: Vec<MaterialEntry>,
-    #[serde(default)]
-    shape: Vec<Located<ShapeEntry>>,
-    #[serde(default)]
-    group: Vec<GroupEntry>,
-    #[serde(default)]
-    instance: Vec<Located<InstanceEntry>>,
-    #[serde(default)]
-    light: Vec<Located<LightEntry>>,
-    #[serde(default)]
-    import: Vec<ImportEntry>,
+    pub import: Vec<ImportEntry>,
 }
 
 /// The picture.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct FilmTable {
     /// Width and height in pixels, 512 × 512 when left out.
@@ -105,7 +72,7 @@ pub struct FilmTable {
 }
 
 /// The shape around a pixel's centre by which its samples are drawn.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(tag = "type")]
 pub enum FilterEntry {
@@ -115,7 +82,7 @@ pub enum FilterEntry {
     BlackmanHarris(FilterKeys),
 }
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct FilterKeys {
     /// Half the filter's width in pixels; 0.5 for a box, 1 for a tent, 1.5 for gaussian and 2 for blackman_harris when left out.
@@ -123,7 +90,7 @@ pub struct FilterKeys {
 }
 
 /// Where the picture is taken from.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(extend("dependentRequired" = { "aperture": ["focus_distance"], "interpolation": ["keyframes"] }, "allOf" = [{ "oneOf": [
     { "required": ["vfov"], "not": { "required": ["height"] }, "properties": { "projection": { "const": "perspective" } } },
@@ -171,7 +138,7 @@ pub enum ProjectionName {
 }
 
 /// The opening of a thin lens.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(tag = "shape")]
 pub enum ApertureEntry {
@@ -180,14 +147,14 @@ pub enum ApertureEntry {
     Polygon(PolygonAperture),
 }
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct RoundAperture {
     /// Radius of a disk, half the side of a square.
     pub radius: Checked<NonNegative>,
 }
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct PolygonAperture {
     /// Radius of the circle through the corners.

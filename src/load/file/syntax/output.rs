@@ -12,7 +12,7 @@ use crate::choice::Choice;
 use crate::film::Layer;
 
 /// What is written beside the picture. Command-line flags override these.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct OutputTable {
     /// Layers that .exr files hold beside the picture; none when left out.

@@ -6,10 +6,12 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::load::file::colour::Rgb;
+use crate::load::file::reference::{FileOr, TextureName};
 use crate::load::file::value::{Any, Checked, Exactly, Located, Number, Positive};
+use crate::load::image_file::EmbeddedFile;
 
 /// A colour that varies over a surface.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(tag = "type")]
 pub enum TextureEntry {
@@ -29,14 +31,14 @@ pub struct CommonKeys<'e> {
     pub second_uvs: Option<bool>,
     pub bends_by_first_uvs: Option<bool>,
     /// The texture by which it is multiplied.
-    pub times: Option<&'e Located<String>>,
+    pub times: Option<&'e Located<TextureName>>,
 }
 
 /// Kinds of textures by the keys of their own, to which it adds those that all have.
 macro_rules! texture_entries {
     ($($(#[$about:meta])* $entry:ident { $($(#[$key_about:meta])* $key:ident: $type:ty,)* })*) => {$(
         $(#[$about])*
-        #[derive(Debug, Deserialize, JsonSchema)]
+        #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         pub struct $entry {
             #[schemars(extend("minLength" = 1))]
@@ -51,7 +53,7 @@ macro_rules! texture_entries {
             /// A normal map with `second_uvs` and this key has red and green along the directions in which `uvs` grow.
             pub bends_by_first_uvs: Option<bool>,
             /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
-            pub times: Option<Located<String>>,
+            pub times: Option<Located<TextureName>>,
         }
 
         impl $entry {
@@ -68,7 +70,7 @@ texture_entries! {
     /// A picture file, looked up by uv.
     ImageEntry {
         /// Path relative to the scene file.
-        file: Located<String>,
+        file: Located<FileOr<EmbeddedFile>>,
         /// "srgb" for integer formats, "linear" for floating-point ones when left out.
         color_space: Option<ColorSpaceEntry>,
         /// The way the texture goes on beyond the picture; "repeat" when left out.
