@@ -10,8 +10,7 @@ use toml::de::{DeTable, DeValue};
 use super::reader::{self, Mistake, Node};
 use super::wording;
 use crate::load::error::{MOST_ERRORS, SceneError};
-use crate::load::import::{PlacedText, Text};
-use crate::load::place::{Origin, Place};
+use crate::load::place::Place;
 
 /// A scene file's text.
 #[derive(Clone)]
@@ -19,31 +18,13 @@ pub struct Document<'a> {
     /// How errors call the file.
     pub name: &'a str,
     pub text: &'a str,
-    /// Imported text, which is parsed by itself: blank as far as `text` goes, so that places in both are told apart.
-    imported: &'a str,
-    /// What parts of the text were made from, where no person wrote it.
-    pub origins: &'a [PlacedText],
     /// What the text was parsed into, if it was: large texts take long.
     tree: Arc<OnceLock<Node<'a>>>,
 }
 
 impl<'a> Document<'a> {
-    pub fn new(name: &'a str, text: &'a str, origins: &'a [PlacedText]) -> Self {
-        Self { name, text, imported: "", origins, tree: Arc::default() }
-    }
-
-    /// Joins the text with its imports, whose text begins as [`Self::room_for_imports`] does: the lists of both are read as one.
-    pub fn with_imports<'b>(&self, imported: &'b Text) -> Document<'b>
-    where
-        'a: 'b,
-    {
-        let Text { text, origins } = imported;
-        Document { name: self.name, text: self.text, imported: text, origins, tree: Arc::default() }
-    }
-
-    /// Blank text in the place of this one.
-    pub fn room_for_imports(&self) -> String {
-        " ".repeat(self.text.len()) + "\n"
+    pub fn new(name: &'a str, text: &'a str) -> Self {
+        Self { name, text, tree: Arc::default() }
     }
 
     /// Reads the text into the types of what is written.
@@ -54,11 +35,6 @@ impl<'a> Document<'a> {
     /// The same text without its tree, which takes several times the text's memory. It is made again where a mistake is found.
     pub fn without_tree(self) -> Self {
         Self { tree: Arc::default(), ..self }
-    }
-
-    /// Reads one key of the text, and nothing else.
-    pub fn read_key<T: DeserializeOwned>(&self, key: &str) -> Result<T, SceneError> {
-        reader::read_part(self.root()?, key, None).map_err(|mistake| self.translate(mistake))
     }
 
     /// Reads the text into a type of which any part may be missing.
@@ -101,35 +77,15 @@ impl<'a> Document<'a> {
 
     /// An error about the value written at `span`.
     fn error_in_text(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
-        let is_named = self.origin_at(span.start).is_some_and(|origin| !origin.key.is_empty());
-        let key = if is_named { String::new() } else { self.key_at(&span) };
-        self.error_at(span, key, message.into())
-    }
-
-    /// As [`Self::error`], with this key where the text was not made from something that has its own.
-    fn error_at(&self, span: Range<usize>, key: String, message: String) -> SceneError {
-        let Some(origin) = self.origin_at(span.start) else {
-            return SceneError::in_text(self.name, self.text, span, message).with_key(key);
-        };
-        let file = if origin.file.is_empty() { self.name.to_owned() } else { origin.file.clone() };
-        let key = if origin.key.is_empty() { key } else { origin.key.clone() };
-        Origin { file, line: origin.line, key }.error(message)
-    }
-
-    /// What the text at a byte was made from.
-    fn origin_at(&self, at: usize) -> Option<&'a Origin> {
-        self.origins[..self.origins.partition_point(|origin| origin.start <= at)].last().map(|text| &text.place)
+        let key = self.key_at(&span);
+        SceneError::in_text(self.name, self.text, span, message).with_key(key)
     }
 
     fn parsed(&self) -> Result<&Node<'a>, SceneError> {
         if let Some(tree) = self.tree.get() {
             return Ok(tree);
         }
-        let mut root = DeTable::parse(self.text).map_err(|error| self.syntax_error(&error, self.text))?;
-        if !self.imported.is_empty() {
-            let imported = DeTable::parse(self.imported).map_err(|error| self.syntax_error(&error, self.imported))?;
-            join(root.get_mut(), imported.into_inner());
-        }
+        let root = DeTable::parse(self.text).map_err(|error| self.syntax_error(&error))?;
         Ok(self.tree.get_or_init(|| Spanned::new(root.span(), DeValue::Table(root.into_inner()))))
     }
 
@@ -139,13 +95,13 @@ impl<'a> Document<'a> {
     }
 
     /// A text that does not parse has no tree, in which the key would be looked up.
-    fn syntax_error(&self, error: &toml::de::Error, text: &str) -> SceneError {
+    fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let span = error.span().unwrap_or(0..self.text.len().min(1));
         let message = match error.message() {
-            "duplicate key" => format!("duplicate key `{}`", text.get(span.clone()).unwrap_or_default()),
+            "duplicate key" => format!("duplicate key `{}`", self.text.get(span.clone()).unwrap_or_default()),
             other => wording::in_plain_words(other).0,
         };
-        self.error_at(span, String::new(), message)
+        SceneError::in_text(self.name, self.text, span, message)
     }
 
     fn translate(&self, mistake: Mistake) -> SceneError {
@@ -171,20 +127,6 @@ impl<'a> Document<'a> {
         let mut innermost = Innermost { wanted: span, path: String::new(), width: usize::MAX };
         innermost.search_table(root, "");
         innermost.path
-    }
-}
-
-/// Appends the lists of another table, and takes over what only that one has. A person's own value of another kind stays, and is told about.
-fn join<'a>(table: &mut DeTable<'a>, other: DeTable<'a>) {
-    for (key, value) in other {
-        let span = value.span();
-        match (table.get_mut(key.get_ref().as_ref()).map(Spanned::get_mut), value.into_inner()) {
-            (Some(DeValue::Array(list)), DeValue::Array(more)) => more.into_iter().for_each(|entry| list.push(entry)),
-            (Some(_), _) => {}
-            (None, value) => {
-                table.insert(key, Spanned::new(span, value));
-            }
-        }
     }
 }
 

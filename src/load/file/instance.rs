@@ -9,13 +9,13 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::nested::{FileGroup, Groups, Held};
+use super::place_file::{PLACE_NUMBERS, PlaceFormat, place_rows};
 use super::reference::FileOr;
 use super::resolver::Resolver;
 use super::shape::{ShapeEntry, TransformEntry};
 use super::value::{Exactly, LARGEST, Located, Number, Vector, vector};
 use crate::load::error::{SceneError, show};
 use crate::load::files::MOST_MODEL_BYTES;
-use crate::load::import::{PLACE_NUMBERS, PlaceFormat};
 use crate::scene::{Geometry, Group, Instances, Material, MaterialKind, Transform, is_singular};
 
 /// Meshes that are stored once, and instances of other groups. They are seen where an `[[instance]]` names the group.
@@ -246,7 +246,11 @@ impl Resolver<'_> {
 
     fn places_of_file(&self, file: &Located<FileOr<[DAffine3]>>) -> Result<Vec<DAffine3>, SceneError> {
         let path = match &file.value {
-            FileOr::InMemory(places) => return Ok(places.to_vec()),
+            FileOr::InMemory(places) => {
+                let is_possible = |map: &DAffine3| place_rows(map).iter().all(|number| number.abs() <= LARGEST);
+                let message = "a place of an instance leaves the range of numbers";
+                return if places.iter().all(is_possible) { Ok(places.to_vec()) } else { Err(self.error(&file.place, message)) };
+            }
             FileOr::Written(path) => self.folder.join(path),
             FileOr::OnDisk(path) => path.clone(),
         };

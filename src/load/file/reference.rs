@@ -18,6 +18,32 @@ impl AsRef<str> for TextureName {
     }
 }
 
+/// A value of a material's key, which may name textures.
+pub trait NamesTextures {
+    /// Calls this with the name of each texture.
+    fn each_texture(&mut self, _visit: &mut dyn FnMut(&mut String)) {}
+}
+
+impl NamesTextures for TextureName {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        visit(&mut self.0);
+    }
+}
+
+impl<T: NamesTextures> NamesTextures for Option<T> {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        self.iter_mut().for_each(|value| value.each_texture(visit));
+    }
+}
+
+impl<T: NamesTextures> NamesTextures for Box<T> {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        (**self).each_texture(visit);
+    }
+}
+
+impl NamesTextures for bool {}
+
 /// A file, or its content where an importer has that in memory.
 #[derive(Debug)]
 pub enum FileOr<T: ?Sized> {

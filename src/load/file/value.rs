@@ -11,6 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 
 use super::reader::located;
+use super::reference::NamesTextures;
 use crate::load::place::Place;
 use crate::scene::settings::{LARGEST_FILTER_RADIUS, SMALLEST_FILTER_RADIUS};
 
@@ -93,11 +94,21 @@ impl<R: Rule> Checked<R> {
     }
 }
 
+impl Checked<NonNegative> {
+    pub const ZERO: Self = Self(0.0, PhantomData);
+}
+
 /// Any finite number.
 pub type Number = Checked<Any>;
 
 /// Three numbers.
 pub type Vector = Exactly<Number, 3>;
+
+impl<T: Default> Default for Exactly<T, 2> {
+    fn default() -> Self {
+        Self(Default::default())
+    }
+}
 
 impl<const N: usize> Exactly<Number, N> {
     /// These numbers.
@@ -213,7 +224,7 @@ impl<R: Rule> JsonSchema for Checked<R> {
 }
 
 /// A value and the place where it is stated.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub struct Located<T> {
     pub value: T,
     pub place: Place,
@@ -246,6 +257,15 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
         Ok(Self { value, place: span.into() })
     }
 }
+
+impl<T: NamesTextures> NamesTextures for Located<T> {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        self.value.each_texture(visit);
+    }
+}
+
+impl<R> NamesTextures for Checked<R> {}
+impl<T, const N: usize> NamesTextures for Exactly<T, N> {}
 
 impl<T: JsonSchema> JsonSchema for Located<T> {
     fn schema_name() -> Cow<'static, str> {

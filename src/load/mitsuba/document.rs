@@ -258,7 +258,7 @@ fn empty_plugin(kind: &str, place: Origin) -> Plugin {
         kind: kind.to_owned(),
         name: String::new(),
         id: String::new(),
-        place,
+        place: place.into(),
         properties: Vec::new(),
         children: Vec::new(),
         within: Within::default(),

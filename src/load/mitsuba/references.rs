@@ -62,7 +62,7 @@ impl References {
         }
         self.check_new(&id, &place)?;
         self.written.insert(id.clone(), draft);
-        Ok(Target::Named(id, place))
+        Ok(Target::Named(id, Origin::clone(&place)))
     }
 
     /// Gives a plugin a second id.

@@ -124,6 +124,20 @@ impl From<Rows> for MapRows {
 }
 
 impl Keys {
+    /// The same radiance from everywhere.
+    pub fn constant(radiance: Located<Rgb<NonNegative>>) -> Self {
+        Self {
+            radiance: Some(radiance),
+            file: None,
+            scale: None,
+            rotate: None,
+            mirror: None,
+            rows: None,
+            keyframes: None,
+            interpolation: None,
+        }
+    }
+
     fn map(
         &self,
         resolver: &mut Resolver<'_>,

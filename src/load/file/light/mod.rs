@@ -14,6 +14,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use self::keys::LightKeys;
+use super::reference::TextureName;
 use super::resolver::Resolver;
 use super::value::Located;
 use super::writer::Writer;
@@ -65,6 +66,31 @@ macro_rules! entries {
 }
 light_table!(entries);
 
+impl LightEntry {
+    pub fn is_environment(&self) -> bool {
+        matches!(self, Self::Environment(_) | Self::Sky(_))
+    }
+
+    /// The node that takes the light along; None of lights without a place.
+    pub fn node_mut(&mut self) -> Option<&mut Option<Located<String>>> {
+        match self {
+            Self::Point(keys) => Some(&mut keys.node),
+            Self::Spot(keys) => Some(&mut keys.node),
+            Self::Directional(keys) => Some(&mut keys.node),
+            Self::Environment(_) | Self::Sky(_) | Self::Projector(_) => None,
+        }
+    }
+
+    /// The texture whose picture the light throws; None of lights that throw none.
+    pub fn texture_mut(&mut self) -> Option<&mut Located<TextureName>> {
+        match self {
+            Self::Spot(keys) => keys.texture.as_mut(),
+            Self::Projector(keys) => keys.texture.as_mut(),
+            Self::Environment(_) | Self::Sky(_) | Self::Point(_) | Self::Directional(_) => None,
+        }
+    }
+}
+
 /// Name of the type, and keys as TOML, of examples of every light.
 pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
     ["environment", "delta"].into_iter().flat_map(examples_of)
@@ -102,7 +128,7 @@ pub fn delta_examples() -> Vec<(&'static str, Light)> {
     let load = |(name, light)| {
         let text = format!("camera = {{ position = [0, 0, 1], look_at = [0, 0, 0], vfov = 40 }}\n{light}");
         // The file that an environment names is not there.
-        let scene = super::load_toml_str(&text, "example", std::path::Path::new("no-folder")).ok()?;
+        let scene = crate::load::load_toml_str(&text, "example", std::path::Path::new("no-folder")).ok()?;
         Some((name, scene.lights.into_iter().find(|light| light.delta().is_some())?))
     };
     let lights: Vec<(&str, Light)> = examples().filter_map(load).collect();

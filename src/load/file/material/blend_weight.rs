@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::keys::ior_or_default;
 use crate::load::error::SceneError;
 use crate::load::file::colour::ChannelName;
-use crate::load::file::reference::TextureName;
+use crate::load::file::reference::{NamesTextures, TextureName};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
 use crate::load::file::writer::{Writer, channel_name, number, table, text};
@@ -85,7 +85,39 @@ pub struct ThresholdWeight {
     pub of: Box<BlendWeightEntry>,
 }
 
+impl Default for BlendWeightEntry {
+    fn default() -> Self {
+        Self::Front(NoKeys {})
+    }
+}
+
+impl NamesTextures for BlendWeightEntry {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        match self {
+            Self::Texture(keys) => keys.texture.each_texture(visit),
+            Self::Reverse(ReverseWeight { of }) | Self::Threshold(ThresholdWeight { of, .. }) => of.each_texture(visit),
+            Self::Constant(_) | Self::Facing(_) | Self::Fresnel(_) | Self::Front(_) | Self::Camera(_) => {}
+        }
+    }
+}
+
 impl BlendWeightEntry {
+    /// The same share everywhere.
+    ///
+    /// # Errors
+    /// A sentence about a number that is no share.
+    pub fn constant(value: f64) -> Result<Self, String> {
+        Ok(Self::Constant(ConstantWeight { value: Checked::of(value)? }))
+    }
+
+    /// A channel of a texture times a factor.
+    ///
+    /// # Errors
+    /// A sentence about a factor that is no share.
+    pub fn channel(texture: Located<TextureName>, channel: ChannelName, factor: f64) -> Result<Self, String> {
+        let factor = if factor == 1.0 { None } else { Some(texture.place.at(Checked::of(factor)?)) };
+        Ok(Self::Texture(TextureWeight { texture, channel: Some(channel), factor }))
+    }
     pub fn resolve(&self, resolver: &Resolver<'_>) -> Result<BlendWeight, SceneError> {
         Ok(match self {
             Self::Constant(keys) => BlendWeight::Constant { value: keys.value.0 },

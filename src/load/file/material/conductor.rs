@@ -8,6 +8,7 @@ use super::keys::{MaterialKeys, material_keys};
 use super::roughness::{DistributionEntry, FacetKeys, MaskingEntry, write_facets};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Rgb, Scalar};
+use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located, NonNegative, Positive};
 use crate::load::file::writer::{Writer, colour, line};
@@ -71,6 +72,8 @@ pub enum MetalEntry {
     Silver,
     Aluminium,
 }
+
+impl NamesTextures for MetalEntry {}
 
 impl MaterialKeys for Keys {
     const EXAMPLES: &'static [&'static str] = &[

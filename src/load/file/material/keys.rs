@@ -75,6 +75,20 @@ pub struct CommonKeys<'a> {
     pub two_sided: Option<&'a Located<bool>>,
 }
 
+/// The same to be changed.
+pub struct CommonKeysMut<'a> {
+    pub name: &'a mut Located<String>,
+    pub normal_map: &'a mut Option<Located<TextureName>>,
+    pub normal_scale: &'a mut Option<Located<Number>>,
+    pub bump_map: &'a mut Option<Located<TextureName>>,
+    pub bump_scale: &'a mut Option<Located<Number>>,
+    pub normal_shadowing: &'a mut Option<Located<bool>>,
+    pub normal_mirroring: &'a mut Option<Located<bool>>,
+    pub emission: &'a mut Option<Located<Colour<NonNegative>>>,
+    pub emission_two_sided: &'a mut Option<Located<bool>>,
+    pub two_sided: &'a mut Option<Located<bool>>,
+}
+
 /// Declares a material's `Keys`: its own and those that every material has. Serde cannot tell unknown keys from those of a struct within.
 /// After `own two_sided`, the key of that name is among its own and means something else.
 macro_rules! material_keys {
@@ -83,7 +97,7 @@ macro_rules! material_keys {
     };
     (@struct [$(#[$doc:meta])*] [$($(#[$field_doc:meta])* $field:ident: $type:ty,)*]
      [$($(#[$last_doc:meta])* $last:ident: $last_type:ty,)*]) => {
-        #[derive(Debug, Clone, serde::Deserialize, schemars::JsonSchema)]
+        #[derive(Debug, Clone, Default, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         #[schemars(extend("dependentRequired" = {
             "emission_two_sided": ["emission"], "normal_scale": ["normal_map"], "bump_scale": ["bump_map"]
@@ -132,6 +146,30 @@ macro_rules! material_keys {
                     opacity: self.opacity.as_ref(),
                     two_sided: self.two_sided.as_ref(),
                 }
+            }
+
+            pub fn common_mut(&mut self) -> $crate::load::file::material::keys::CommonKeysMut<'_> {
+                $crate::load::file::material::keys::CommonKeysMut {
+                    name: &mut self.name,
+                    normal_map: &mut self.normal_map,
+                    normal_scale: &mut self.normal_scale,
+                    bump_map: &mut self.bump_map,
+                    bump_scale: &mut self.bump_scale,
+                    normal_shadowing: &mut self.normal_shadowing,
+                    normal_mirroring: &mut self.normal_mirroring,
+                    emission: &mut self.emission,
+                    emission_two_sided: &mut self.emission_two_sided,
+                    two_sided: &mut self.two_sided,
+                }
+            }
+
+            pub fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+                use $crate::load::file::reference::NamesTextures;
+                $(self.$field.each_texture(visit);)*
+                self.normal_map.each_texture(visit);
+                self.bump_map.each_texture(visit);
+                self.emission.each_texture(visit);
+                self.opacity.each_texture(visit);
             }
         }
     };

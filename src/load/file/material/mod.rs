@@ -20,8 +20,10 @@ pub mod roughness;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use self::keys::{CommonKeys, MaterialKeys};
+use self::keys::{CommonKeys, CommonKeysMut, MaterialKeys};
+use super::colour::Colour;
 use super::resolver::Resolver;
+use super::value::{Located, NonNegative};
 use super::writer::Writer;
 use crate::load::error::SceneError;
 use crate::scene::material::material_table;
@@ -43,6 +45,15 @@ macro_rules! entries {
 
             pub fn common(&self) -> CommonKeys<'_> {
                 match self { $(Self::$material(keys) => keys.common(),)* }
+            }
+
+            pub fn common_mut(&mut self) -> CommonKeysMut<'_> {
+                match self { $(Self::$material(keys) => keys.common_mut(),)* }
+            }
+
+            /// Calls this with the name of each texture that the material looks up.
+            pub fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+                match self { $(Self::$material(keys) => keys.each_texture(visit),)* }
             }
 
             pub fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -69,6 +80,29 @@ macro_rules! entries {
     };
 }
 material_table!(entries);
+
+impl MaterialEntry {
+    pub fn name(&self) -> &str {
+        &self.common().name.value
+    }
+
+    /// The light that it sends out by itself.
+    pub fn radiance(&self) -> Option<&Colour<NonNegative>> {
+        match self {
+            Self::Emissive(keys) => Some(&keys.radiance),
+            other => other.common().emission.map(|emission| &emission.value),
+        }
+    }
+
+    /// The names of the materials that it blends.
+    pub fn parts(&self) -> &[Located<String>] {
+        if let Self::Blend(keys) = self { &keys.materials.0 } else { &[] }
+    }
+
+    pub fn parts_mut(&mut self) -> &mut [Located<String>] {
+        if let Self::Blend(keys) = self { &mut keys.materials.0 } else { &mut [] }
+    }
+}
 
 /// `type` and keys, as TOML, of examples of every material. Those of blends name the materials `red` and `mirror`.
 pub fn examples() -> impl Iterator<Item = (&'static str, String)> {

@@ -7,6 +7,7 @@ use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::{FacetKeys, MaskingEntry, write_facets};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Scalar};
+use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, Positive};
 use crate::load::file::writer::{Writer, flag, line, number};
@@ -71,6 +72,8 @@ pub enum MicrofacetEntry {
     /// Cosine-power lobes about the directions of smooth glass.
     Phong,
 }
+
+impl NamesTextures for MicrofacetEntry {}
 
 impl MaterialKeys for Keys {
     const EXAMPLES: &'static [&'static str] = &[

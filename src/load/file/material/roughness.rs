@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use crate::load::error::SceneError;
 use crate::load::file::colour::Scalar;
+use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located};
 use crate::load::file::writer::{Writer, colour, line};
@@ -32,6 +33,9 @@ pub enum DistributionEntry {
     /// Normally distributed slopes.
     Beckmann,
 }
+
+impl NamesTextures for DistributionEntry {}
+impl NamesTextures for MaskingEntry {}
 
 impl From<DistributionEntry> for MicrofacetDistribution {
     fn from(entry: DistributionEntry) -> Self {

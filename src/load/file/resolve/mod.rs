@@ -13,12 +13,13 @@ use std::path::Path;
 use super::document::Document;
 use super::reference::FileOr;
 use super::resolver::Resolver;
-use super::shape::{self, ShapeEntry};
+use super::shape::{self, ShapeEntry, TransformEntry};
 use super::syntax::SceneFile;
+use super::value::Located;
 use crate::load::access::Access;
 use crate::load::error::{SceneError, show};
 use crate::load::place::{Origin, Place};
-use crate::scene::Scene;
+use crate::scene::{Scene, Transform};
 
 /// Resolves a whole file.
 pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, access: Access) -> Result<Scene, SceneError> {
@@ -50,6 +51,14 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
     resolver.finish()
 }
 
+/// The transform that an entry of a file states.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn resolve_transform(document: &Document<'_>, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
+    Resolver::new(document.clone(), Path::new(""), Access::default()).transform(written)
+}
+
 /// Reads a model by itself: a scene of one shape with the model's own materials, or with the last one of `materials`.
 ///
 /// # Errors
@@ -72,7 +81,7 @@ pub fn resolve_model<'a>(
         keys.material = Some(place.at(last.ok_or_else(missing)?));
     }
     file.shape.push(place.at(ShapeEntry::Mesh(keys)));
-    let (document, folder) = materials.unwrap_or((Document::new("", "", &[]), Path::new("")));
+    let (document, folder) = materials.unwrap_or((Document::new("", ""), Path::new("")));
     let mut scene = resolve(document, folder, file, access)?;
     scene.shapes[0].label = name;
     Ok(scene)

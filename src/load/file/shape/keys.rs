@@ -64,6 +64,14 @@ macro_rules! shape_keys {
         }
 
         impl Keys {
+            pub fn common_mut(&mut self) -> $crate::load::file::shape::keys::CommonKeysMut<'_> {
+                $crate::load::file::shape::keys::CommonKeysMut {
+                    material: &mut self.material,
+                    transform: &mut self.transform,
+                    node: &mut self.node,
+                }
+            }
+
             pub fn common(&self) -> $crate::load::file::shape::keys::CommonKeys<'_> {
                 $crate::load::file::shape::keys::CommonKeys {
                     material: self.material.as_ref(),
@@ -83,6 +91,23 @@ macro_rules! shape_keys {
 }
 pub(super) use shape_keys;
 
+/// Makes the keys of a shape from its own, without those that every shape has.
+macro_rules! plain_keys {
+    ($($field:ident: $value:expr),* $(,)?) => {
+        Self {
+            $($field: $value,)*
+            material: None,
+            transform: None,
+            motion: None,
+            keyframes: None,
+            interpolation: None,
+            node: None,
+            portal: false,
+        }
+    };
+}
+pub(super) use plain_keys;
+
 /// The keys that every shape has.
 pub struct CommonKeys<'a> {
     pub material: Option<&'a Located<String>>,
@@ -90,6 +115,13 @@ pub struct CommonKeys<'a> {
     pub motion: Option<&'a Located<TransformEntry>>,
     pub portal: bool,
     pub track: WrittenTrack<'a>,
+}
+
+/// Keys that every shape has and importers change.
+pub struct CommonKeysMut<'a> {
+    pub material: &'a mut Option<Located<String>>,
+    pub transform: &'a mut Option<Located<TransformEntry>>,
+    pub node: &'a mut Option<Located<String>>,
 }
 
 /// A shape whose geometry is about to be resolved.

@@ -17,6 +17,7 @@ use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
 use crate::load::file::writer::Writer;
 use crate::load::formats;
 use crate::load::model::ModelFormat;
+use crate::load::place::Place;
 use crate::scene::{Mesh, Shape};
 
 shape_keys! {
@@ -107,6 +108,11 @@ impl ShapeKeys for Keys {
 }
 
 impl Keys {
+    /// A mesh that an importer has made.
+    pub fn of(mesh: Arc<Mesh>, place: &Place) -> Self {
+        Self { smooth: Some(mesh.smooth), file: Some(place.at(FileOr::InMemory(mesh))), ..Self::default() }
+    }
+
     /// The mesh that an importer has made, as it is.
     fn mesh_in_memory(
         &self,

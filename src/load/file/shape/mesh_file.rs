@@ -41,10 +41,6 @@ impl Resolver<'_> {
         if let Some(loaded) = self.mesh_files.get(&key) {
             return Ok(LoadedMesh { mesh: loaded.mesh.clone(), material: material.unwrap_or(loaded.material) });
         }
-        if let Some(mesh) = self.files().held_mesh(path).cloned() {
-            let material = material.unwrap_or_else(|| self.material_of_unnamed_faces());
-            return Ok(LoadedMesh { mesh, material });
-        }
         let mut file = match ModelFormat::of(path) {
             Some(ModelFormat::Ply) => ply::load(self.files(), path)?,
             Some(ModelFormat::Obj) | None => obj::load(self.files(), path, material.is_none())?,

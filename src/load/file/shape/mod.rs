@@ -20,7 +20,7 @@ use serde::Deserialize;
 
 pub use self::transform::TransformEntry;
 
-use self::keys::{CommonKeys, ShapeKeys, Written};
+use self::keys::{CommonKeys, CommonKeysMut, ShapeKeys, Written};
 use super::resolver::Resolver;
 use super::value::Located;
 use super::writer::Writer;
@@ -44,7 +44,13 @@ macro_rules! entries {
         const EXAMPLES: &[(&str, &[&str])] = &[$(($name, $module::Keys::EXAMPLES),)*];
 
         impl ShapeEntry {
-            fn common(&self) -> CommonKeys<'_> {
+            pub fn common_mut(&mut self) -> CommonKeysMut<'_> {
+                match self {
+                    $(Self::$variant(keys) => keys.common_mut(),)*
+                }
+            }
+
+            pub fn common(&self) -> CommonKeys<'_> {
                 match self {
                     $(Self::$variant(keys) => keys.common(),)*
                 }

@@ -12,6 +12,7 @@ use serde::{Deserialize, Deserializer};
 use crate::load::error::SceneError;
 use crate::load::file::colour::any_of;
 use crate::load::file::keyframes::ScaleEntry;
+use crate::load::file::place_file::{PLACE_NUMBERS, place_rows};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
 use crate::load::place::Place;
@@ -40,6 +41,38 @@ pub struct StepEntry {
     pub translate: Option<Vector>,
     /// 16 numbers, row by row; the last row is 0 0 0 1.
     pub matrix: Option<Located<Exactly<Number, 16>>>,
+}
+
+impl TransformEntry {
+    /// The matrix of a map; None of the identity.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of_map(map: &DAffine3, place: &Place) -> Result<Option<Located<Self>>, String> {
+        if *map == DAffine3::IDENTITY {
+            return Ok(None);
+        }
+        let mut numbers = [0.0; 16];
+        numbers[..PLACE_NUMBERS].copy_from_slice(&place_rows(map));
+        numbers[15] = 1.0;
+        let matrix = Some(place.at(Exactly::of(numbers)?));
+        let step = StepEntry { scale: None, rotate: None, degrees: None, translate: None, matrix };
+        Ok(Some(place.at(Self::Single(Box::new(step)))))
+    }
+
+    /// The map of what [`Self::of_map`] made; None of steps.
+    pub fn map(&self) -> Option<DAffine3> {
+        match self {
+            Self::Single(step) => step.matrix.as_ref().map(|matrix| affine(&matrix.value)),
+            Self::Steps(_) => None,
+        }
+    }
+}
+
+/// The map of a matrix whose numbers are row by row.
+fn affine(rows: &Exactly<Number, 16>) -> DAffine3 {
+    let column = |index: usize| DVec3::new(rows[index].0, rows[4 + index].0, rows[8 + index].0);
+    DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
 }
 
 impl<'de> Deserialize<'de> for TransformEntry {
@@ -157,7 +190,6 @@ impl Resolver<'_> {
         if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
             return Err(self.error(&written.place, "the last row of a matrix is 0, 0, 0, 1 (numbers are row by row)"));
         }
-        let column = |index: usize| DVec3::new(rows[index], rows[4 + index], rows[8 + index]);
-        Ok(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
+        Ok(affine(&written.value))
     }
 }

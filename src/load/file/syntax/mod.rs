@@ -14,7 +14,7 @@ use serde::Deserialize;
 
 pub use output::OutputTable;
 pub use render::RenderTable;
-pub use texture::{ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
+pub use texture::{CheckerEntry, ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::import::ImportEntry;
 use super::instance::{GroupEntry, InstanceEntry};

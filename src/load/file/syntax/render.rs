@@ -13,6 +13,19 @@ use crate::scene::settings::{Assignment, SETTINGS, Setting, Values};
 #[derive(Debug, Clone, Default)]
 pub struct RenderTable(pub Vec<Assignment>);
 
+impl RenderTable {
+    /// Sets a setting to a number or a name, as text.
+    ///
+    /// # Errors
+    /// A sentence about a value that the setting cannot have.
+    pub fn set(&mut self, name: &'static str, value: &str) -> Result<(), String> {
+        let setting = Setting::find(name).ok_or_else(|| format!("there is no setting `{name}`"))?;
+        let assignment = setting.text(value).map_err(|expected| format!("`{name}`: expected {expected}, found {value}"))?;
+        self.0.push(assignment);
+        Ok(())
+    }
+}
+
 impl<'de> Deserialize<'de> for RenderTable {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_map(TableVisitor).map(Self)

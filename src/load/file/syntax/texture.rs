@@ -34,6 +34,14 @@ pub struct CommonKeys<'e> {
     pub times: Option<&'e Located<TextureName>>,
 }
 
+/// The same to be changed.
+pub struct CommonKeysMut<'e> {
+    pub name: &'e mut Located<String>,
+    pub rotation: &'e mut Option<Number>,
+    pub offset: &'e mut Option<Exactly<Number, 2>>,
+    pub times: &'e mut Option<Located<TextureName>>,
+}
+
 /// Kinds of textures by the keys of their own, to which it adds those that all have.
 macro_rules! texture_entries {
     ($($(#[$about:meta])* $entry:ident { $($(#[$key_about:meta])* $key:ident: $type:ty,)* })*) => {$(
@@ -57,6 +65,11 @@ macro_rules! texture_entries {
         }
 
         impl $entry {
+            fn common_mut(&mut self) -> CommonKeysMut<'_> {
+                let Self { name, rotation, offset, times, .. } = self;
+                CommonKeysMut { name, rotation, offset, times }
+            }
+
             fn common(&self) -> CommonKeys<'_> {
                 let Self { name, rotation, offset, second_uvs, bends_by_first_uvs, times, .. } = self;
                 let (second_uvs, bends_by_first_uvs) = (*second_uvs, *bends_by_first_uvs);
@@ -122,7 +135,7 @@ pub enum ColorSpaceEntry {
     Linear,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WrapEntry {
     Repeat,
@@ -140,7 +153,50 @@ pub enum TextureFilterEntry {
     Triangle,
 }
 
+impl ImageEntry {
+    /// The picture of a file as it is.
+    pub fn of_file(name: Located<String>, file: Located<FileOr<EmbeddedFile>>) -> Self {
+        Self {
+            name,
+            file,
+            color_space: None,
+            wrap: None,
+            wrap_v: None,
+            filter: None,
+            scale: None,
+            fallback: None,
+            rotation: None,
+            offset: None,
+            second_uvs: None,
+            bends_by_first_uvs: None,
+            times: None,
+        }
+    }
+}
+
 impl TextureEntry {
+    pub fn name(&self) -> &str {
+        &self.common().name.value
+    }
+
+    /// Factors of u and v, of textures that have two.
+    pub fn scale_mut(&mut self) -> Option<&mut Option<Exactly<Number, 2>>> {
+        match self {
+            Self::Image(entry) => Some(&mut entry.scale),
+            Self::Checker(entry) => Some(&mut entry.scale),
+            Self::Perlin(_) | Self::Worley(_) => None,
+        }
+    }
+
+    pub fn common_mut(&mut self) -> CommonKeysMut<'_> {
+        match self {
+            Self::Image(entry) => entry.common_mut(),
+            Self::Checker(entry) => entry.common_mut(),
+            Self::Perlin(entry) => entry.common_mut(),
+            Self::Worley(entry) => entry.common_mut(),
+        }
+    }
+
     /// What it has whatever its kind.
     pub fn common(&self) -> CommonKeys<'_> {
         match self {
