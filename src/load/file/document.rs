@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::{self, Mistake, Node};
-use super::wording;
+use super::syntax::FORMAT_VERSION;
 use crate::load::error::{MOST_ERRORS, SceneError};
 use crate::load::place::Place;
 
@@ -42,7 +42,23 @@ impl<'a> Document<'a> {
     /// # Errors
     /// The first mistake of each table and of each entry of a list.
     pub fn read_whole<T: DeserializeOwned>(&self) -> Result<T, SceneError> {
+        self.check_version()?;
         self.read().map_err(|first| self.all_mistakes::<T>(first))
+    }
+
+    /// Refuses a file of a newer version of the format, whose keys may be others.
+    fn check_version(&self) -> Result<(), SceneError> {
+        let Some(value) = self.root()?.get("version") else { return Ok(()) };
+        let version = value.get_ref().as_integer().and_then(|digits| u64::from_str_radix(digits.as_str(), digits.radix()).ok());
+        match version.filter(|version| *version > FORMAT_VERSION.into()) {
+            None => Ok(()),
+            Some(version) => {
+                let message = format!(
+                    "the file is of version {version} of the scene format, and this gpt reads version {FORMAT_VERSION}: take a newer gpt"
+                );
+                Err(self.error_in_text(value.span(), message))
+            }
+        }
     }
 
     /// All that keeps the text from being read; `first` is what the whole text was refused for.
@@ -99,16 +115,15 @@ impl<'a> Document<'a> {
         let span = error.span().unwrap_or(0..self.text.len().min(1));
         let message = match error.message() {
             "duplicate key" => format!("duplicate key `{}`", self.text.get(span.clone()).unwrap_or_default()),
-            other => wording::in_plain_words(other).0,
+            other => other.to_owned(),
         };
         SceneError::in_text(self.name, self.text, span, message)
     }
 
     fn translate(&self, mistake: Mistake) -> SceneError {
         let span = mistake.span.unwrap_or(0..self.text.len().min(1));
-        let (message, help) = wording::in_plain_words(&mistake.message);
-        let located = self.error_in_text(span, message);
-        match help {
+        let located = self.error_in_text(span, mistake.message);
+        match mistake.help {
             Some(help) => located.with_help(help),
             None => located,
         }

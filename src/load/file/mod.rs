@@ -20,9 +20,9 @@ mod resolve;
 mod resolver;
 mod schema;
 pub(super) mod shape;
+mod suggestion;
 pub(super) mod syntax;
 pub(super) mod value;
-mod wording;
 pub(crate) mod writer;
 
 pub(super) use document::{Document, stem};
@@ -37,4 +37,5 @@ pub(super) use resolve::{resolve, resolve_model, resolve_transform};
 pub use schema::{json_schema, make_json_schema};
 pub use shape::examples as shape_examples;
 pub(crate) use shape::write_geometry;
-pub(super) use wording::{did_you_mean, did_you_mean_name};
+pub(super) use suggestion::{did_you_mean, did_you_mean_name};
+pub(crate) use syntax::FORMAT_VERSION;

@@ -28,8 +28,8 @@ macro_rules! entries {
     ($($group:ident { $($variant:ident($type:ident) $module:ident $switch:ident $($needed:ident)*,)* })*) => {
         /// A light that is not a surface. Surfaces emit through their material.
         #[derive(Debug, Clone, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case")]
-        #[schemars(tag = "type")]
+        #[serde(rename = "key:type", rename_all = "snake_case")]
+        #[schemars(tag = "type", rename = "LightEntry")]
         pub enum LightEntry {
             $($($variant($module::Keys),)*)*
         }

@@ -14,8 +14,8 @@ use crate::scene::{BlendWeight, TextureId, TextureKind};
 
 /// The weight of a blend's first material.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(tag = "type")]
+#[serde(rename = "key:type", rename_all = "snake_case")]
+#[schemars(tag = "type", rename = "BlendWeightEntry")]
 pub enum BlendWeightEntry {
     Constant(ConstantWeight),
     Facing(FacingWeight),

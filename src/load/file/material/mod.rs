@@ -34,8 +34,8 @@ macro_rules! entries {
     ($($material:ident $module:ident { $($lobe:tt)* })*) => {
         /// What surfaces are made of.
         #[derive(Debug, Clone, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case")]
-        #[schemars(tag = "type")]
+        #[serde(rename = "key:type", rename_all = "snake_case")]
+        #[schemars(tag = "type", rename = "MaterialEntry")]
         pub enum MaterialEntry { $($material($module::Keys),)* }
 
         impl MaterialEntry {

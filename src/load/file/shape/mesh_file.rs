@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3};
 
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
-use crate::load::file::wording::did_you_mean_name;
+use crate::load::file::suggestion::did_you_mean_name;
 use crate::load::model::{ModelFile, ModelFormat, Part, Substitute};
 use crate::load::place::Place;
 use crate::load::{obj, ply};

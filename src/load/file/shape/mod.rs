@@ -34,8 +34,8 @@ macro_rules! entries {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         /// A surface.
         #[derive(Debug, Clone, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case")]
-        #[schemars(tag = "type")]
+        #[serde(rename = "key:type", rename_all = "snake_case")]
+        #[schemars(tag = "type", rename = "ShapeEntry")]
         pub enum ShapeEntry {
             $($variant($module::Keys),)*
         }

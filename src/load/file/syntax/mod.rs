@@ -1,7 +1,7 @@
 //! The scene file as it is written: one type per table. The JSON Schema is generated from these types.
 //!
-//! A table whose shape depends on a key (`type` mostly) is an enum with one struct per value of that key, whose name stands in the table of
-//! [`super::reader`].
+//! A table whose shape depends on a key (`type` mostly) is an enum with one struct per value of that key; its name for serde is that key
+//! ([`super::reader`]).
 
 mod output;
 mod render;
@@ -25,12 +25,20 @@ use super::node::NodeEntry;
 use super::shape::ShapeEntry;
 use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 
+/// The version of the scene format that is read and written.
+pub const FORMAT_VERSION: u32 = 1;
+
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 #[schemars(title = "gpt scene")]
 #[schemars(extend("required" = [], "anyOf" = [{ "required": ["camera"] }, { "required": ["import"] }]))]
 pub struct SceneFile {
+    /// Version of the scene format: 1, also when left out. A file of a newer version is refused.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 1, "maximum" = FORMAT_VERSION))]
+    #[allow(dead_code, reason = "`Document` looks at it before it reads the rest")]
+    pub version: Option<NonZeroU32>,
     #[serde(default)]
     pub film: FilmTable,
     #[serde(default)]
@@ -73,8 +81,8 @@ pub struct FilmTable {
 
 /// The shape around a pixel's centre by which its samples are drawn.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(tag = "type")]
+#[serde(rename = "key:type", rename_all = "snake_case")]
+#[schemars(tag = "type", rename = "FilterEntry")]
 pub enum FilterEntry {
     Box(FilterKeys),
     Tent(FilterKeys),
@@ -139,8 +147,8 @@ pub enum ProjectionName {
 
 /// The opening of a thin lens.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(tag = "shape")]
+#[serde(rename = "key:shape", rename_all = "snake_case")]
+#[schemars(tag = "shape", rename = "ApertureEntry")]
 pub enum ApertureEntry {
     Disk(RoundAperture),
     Square(RoundAperture),

@@ -12,8 +12,8 @@ use crate::load::image_file::EmbeddedFile;
 
 /// A colour that varies over a surface.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(tag = "type")]
+#[serde(rename = "key:type", rename_all = "snake_case")]
+#[schemars(tag = "type", rename = "TextureEntry")]
 pub enum TextureEntry {
     Image(ImageEntry),
     Checker(CheckerEntry),
