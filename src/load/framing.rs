@@ -136,7 +136,9 @@ pub fn light_by(scene: &mut Scene, map: &Path, Access { files, strict }: Access)
         None => {
             let image = Arc::new(read.image);
             if read.is_plain {
-                scene.sources.add_image(&image, ImageSource { path: map.to_owned(), color_space: None, scale: 1.0 });
+                scene
+                    .sources
+                    .add_image(&image, ImageSource { path: map.to_owned(), embedded: None, color_space: None, scale: 1.0 });
             }
             (image, MapRows::Inside, 0.0)
         }

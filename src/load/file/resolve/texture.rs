@@ -197,8 +197,12 @@ impl Resolver<'_> {
             Entry::Vacant(entry) => entry.insert(self.pictures.read(file, space)?.into()),
         };
         // A written scene names files that everyone reads alike; pixels of others are written anew.
-        if let (true, PictureSource::File(path)) = (cached.is_plain, file) {
-            let source = ImageSource { path: path.clone(), color_space: space, scale: 1.0 };
+        if cached.is_plain {
+            let (path, embedded) = match file {
+                PictureSource::File(path) => (path.clone(), None),
+                PictureSource::Embedded(file) => (file.name.clone().into(), Some(file.bytes.clone())),
+            };
+            let source = ImageSource { path, embedded, color_space: space, scale: 1.0 };
             self.scene.sources.add_image(&cached.image, source);
         }
         if let Some(change) = cached.change.take() {
