@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use gpt::load::{self, SceneError};
-use gpt::output::AtomicFile;
 use gpt::scene_writer;
 
 use super::arguments::ExportArguments;
@@ -30,13 +29,6 @@ pub fn run(arguments: &ExportArguments) -> Result<Exit, Failure> {
     }
     let paths = || written.files.iter().map(|(path, _)| path.as_path()).chain([target.as_path()]);
     outputs::check(paths().filter(|path| path.exists() || path == target), None)?;
-    outputs::check_unread(paths(), &options.log)?;
-    for (path, bytes) in &written.files {
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;
-        }
-        AtomicFile::write(path, bytes)?;
-    }
-    AtomicFile::write(target, written.text.as_bytes())?;
+    written.write(target, &options.log)?;
     Ok(Exit::Done)
 }

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::file::{light_examples_of, load_toml_str, material_examples, shape_examples};
+use super::file::{light_examples_of, material_examples, shape_examples};
+use super::scene_file::load_toml_str;
 
 /// Spheres in a row; they stand this far apart.
 const ROW: usize = 8;

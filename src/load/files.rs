@@ -13,7 +13,6 @@ use super::reading::ReadingProgress;
 use super::spelling::names::{folded, unquoted};
 use crate::file_log::FileLog;
 use crate::input::{self, AnyFile};
-use crate::scene::Mesh;
 
 /// Most bytes of a scene file, where memory suffices.
 pub const MOST_SCENE_BYTES: u64 = 1 << 29;
@@ -29,8 +28,6 @@ const MOST_READ: (u64, u64) = (64, 1 << 28);
 pub struct Files {
     /// With links followed; None: anywhere.
     root: Option<PathBuf>,
-    /// What imported files brought along, by the paths at which it is looked for.
-    held: Arc<Held>,
     progress: ReadingProgress,
     log: FileLog,
     account: Arc<Mutex<Account>>,
@@ -63,13 +60,6 @@ impl Account {
             "the scene reads its files over and over: with this one it is {read} MiB, of files that have {there} MiB"
         )))
     }
-}
-
-/// Contents that stand in no file of their own.
-#[derive(Debug, Clone, Default)]
-struct Held {
-    bytes: HashMap<PathBuf, Arc<[u8]>>,
-    meshes: HashMap<PathBuf, Arc<Mesh>>,
 }
 
 /// A file that was looked for.
@@ -114,36 +104,18 @@ impl Files {
         &self.progress
     }
 
-    /// From now on, a mesh is found at this path.
-    pub fn hold_mesh(&mut self, path: PathBuf, mesh: Arc<Mesh>) {
-        Arc::make_mut(&mut self.held).meshes.insert(path, mesh);
-    }
-
-    /// From now on, these bytes are found at this path.
-    pub fn hold_bytes(&mut self, path: PathBuf, bytes: Arc<[u8]>) {
-        Arc::make_mut(&mut self.held).bytes.insert(path, bytes);
-    }
-
-    /// The mesh that an imported file brought along.
-    pub fn held_mesh(&self, path: &Path) -> Option<&Arc<Mesh>> {
-        self.held.meshes.get(path)
-    }
-
     /// Whether there is anything of this name, on disk or in the program.
     pub fn exists(&self, path: &Path) -> bool {
-        self.held.meshes.contains_key(path) || self.is_file(path) || path.exists()
+        self.is_file(path) || path.exists()
     }
 
     /// Whether there is such a regular file, on disk or in the program.
     pub fn is_file(&self, path: &Path) -> bool {
-        self.held.bytes.contains_key(path) || embedded(path).is_some() || path.is_file()
+        embedded(path).is_some() || path.is_file()
     }
 
     /// Reads a file of at most `most` bytes.
     pub fn read(&self, path: &Path, most: u64) -> io::Result<Cow<'static, [u8]>> {
-        if let Some(bytes) = self.held.bytes.get(path) {
-            return Ok(Cow::Owned(bytes.to_vec()));
-        }
         match embedded(path) {
             Some(content) => Ok(Cow::Borrowed(content)),
             None => {
@@ -155,9 +127,6 @@ impl Files {
     }
 
     pub fn open(&self, path: &Path) -> io::Result<AnyFile> {
-        if let Some(bytes) = self.held.bytes.get(path) {
-            return Ok(Box::new(Cursor::new(bytes.clone())));
-        }
         match embedded(path) {
             Some(content) => Ok(Box::new(Cursor::new(content))),
             None => {

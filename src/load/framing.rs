@@ -122,7 +122,7 @@ fn sphere_around(points: &[DVec3]) -> (DVec3, f64) {
 
 /// Puts a lat-long map in the place of the scene's environment.
 pub fn light_by(scene: &mut Scene, map: &Path, Access { files, strict }: Access) -> Result<(), SceneError> {
-    let read = Pictures::new(files).read(map, None).map_err(|reason| SceneError::in_file(show(map), reason))?;
+    let read = Pictures::new(files).read_file(map, None).map_err(|reason| SceneError::in_file(show(map), reason))?;
     scene.warnings.extend(read.change.map(|change| format!("{}: {change}", show(map))));
     if let Some(note) = read.notes.first().filter(|_| strict) {
         return Err(SceneError::in_file(show(map), note.clone()).with_help("without --strict, this is a warning"));
@@ -136,7 +136,9 @@ pub fn light_by(scene: &mut Scene, map: &Path, Access { files, strict }: Access)
         None => {
             let image = Arc::new(read.image);
             if read.is_plain {
-                scene.sources.add_image(&image, ImageSource { path: map.to_owned(), color_space: None, scale: 1.0 });
+                scene
+                    .sources
+                    .add_image(&image, ImageSource { path: map.to_owned(), embedded: None, color_space: None, scale: 1.0 });
             }
             (image, MapRows::Inside, 0.0)
         }

@@ -1,13 +1,16 @@
 //! The pictures of a scene as linear texels, out of one budget of memory.
 
+use std::fmt;
+use std::hash::{Hash, Hasher};
 use std::io::Cursor;
-use std::path::Path;
-use std::sync::Mutex;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 
 use exr::prelude::f16;
 use image::{DynamicImage, ImageFormat, ImageReader, Limits, Rgba};
 
+use super::error::show;
 use super::files::Files;
 use super::memory;
 use crate::input::AnyFile;
@@ -36,6 +39,59 @@ pub struct Pictures {
     large: Mutex<()>,
 }
 
+/// A file that stands within another one.
+#[derive(Debug, Clone)]
+pub struct EmbeddedFile {
+    /// Its name, with an ending that says its format.
+    pub name: String,
+    pub bytes: Arc<[u8]>,
+}
+
+/// Where the bytes of a picture are.
+#[derive(Debug, Clone)]
+pub enum PictureSource {
+    File(PathBuf),
+    Embedded(Arc<EmbeddedFile>),
+}
+
+impl PictureSource {
+    /// The file's name, whose ending says its format.
+    pub fn name(&self) -> &Path {
+        match self {
+            Self::File(path) => path,
+            Self::Embedded(file) => Path::new(&file.name),
+        }
+    }
+}
+
+impl fmt::Display for PictureSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&show(self.name()))
+    }
+}
+
+/// Embedded files are the same where they are the same in memory.
+impl PartialEq for PictureSource {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::File(path), Self::File(other)) => path == other,
+            (Self::Embedded(file), Self::Embedded(other)) => Arc::ptr_eq(file, other),
+            _ => false,
+        }
+    }
+}
+
+impl Eq for PictureSource {}
+
+impl Hash for PictureSource {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        match self {
+            Self::File(path) => path.hash(state),
+            Self::Embedded(file) => Arc::as_ptr(file).hash(state),
+        }
+    }
+}
+
 /// A picture that was read.
 #[derive(Debug)]
 pub struct Picture {
@@ -54,7 +110,7 @@ pub struct Picture {
 /// Reads an image and turns it into linear colours. Without a colour space, formats of integers are taken to be sRGB and those of
 /// floating-point numbers linear. The error says what is wrong with the file, without its name.
 pub fn read_image(path: &Path, color_space: Option<ColorSpace>) -> Result<ImageData, String> {
-    Pictures::new(Files::default()).read(path, color_space).map(|picture| picture.image)
+    Pictures::new(Files::default()).read_file(path, color_space).map(|picture| picture.image)
 }
 
 /// A picture of one texel with these numbers from 0 to 1, as PNG.
@@ -97,8 +153,13 @@ impl Pictures {
     }
 
     /// As [`read_image`], out of this budget.
-    pub fn read(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
-        let file = PictureFile::open(self.open(path)?, path, color_space)?;
+    pub fn read_file(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+        self.read(&PictureSource::File(path.to_owned()), color_space)
+    }
+
+    /// The same of a picture in a file or within one.
+    pub fn read(&self, source: &PictureSource, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+        let file = PictureFile::open(self.open(source)?, source.name(), color_space)?;
         let integer_bits = match &file {
             PictureFile::Coded(file) => Some(file.bits()).filter(|bits| *bits <= 16),
             _ => None,
@@ -113,7 +174,11 @@ impl Pictures {
         Ok(Picture { image, integer_bits, change, notes, hints, is_plain })
     }
 
-    fn open(&self, path: &Path) -> Result<AnyFile, String> {
+    fn open(&self, source: &PictureSource) -> Result<AnyFile, String> {
+        let path = match source {
+            PictureSource::File(path) => path,
+            PictureSource::Embedded(file) => return Ok(Box::new(Cursor::new(file.bytes.clone()))),
+        };
         self.files.open(path).map_err(|error| format!("cannot be read: {error}"))
     }
 

@@ -1,16 +1,23 @@
 //! Scenes of other programs, by the endings of their names.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
 
 use super::access::LoadOptions;
 use super::error::{SceneError, show};
+use super::file::colour::{Colour, Rgb};
+use super::file::light::{LightEntry, environment};
+use super::file::material::{MaterialEntry, diffuse, emissive};
+use super::file::shape::{ShapeEntry, plane, rectangle};
+use super::file::syntax::CameraTable;
+use super::file::value::{Checked, Located};
 use super::files::Files;
 use super::framing::{FIELD_OF_VIEW, GROUND, LIGHT, SKY, Stage};
-use super::import::{Description, Entry, FileReference, HeldContent, Keys, Text, write_ply};
+use super::import::{Description, camera_at};
+use super::place::{Origin, Place};
 use super::{gltf, mitsuba};
-use crate::scene::ImportReport;
+use crate::scene::{Plane, Rectangle};
 
 /// How a scene of another program is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,9 +64,9 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
             ));
         }
     };
-    let is_bare = description.shapes.is_empty() && description.instances.is_empty();
+    let is_bare = description.file.shape.is_empty() && description.file.instance.is_empty();
     // A camera and surroundings make a picture without surfaces.
-    if is_bare && description.lights.is_empty() && description.camera.is_none() {
+    if is_bare && description.file.light.is_empty() && description.file.camera.is_none() {
         return Err(SceneError::in_file(
             name,
             "there is nothing to render in the scene: it has no surfaces, no lights and no camera",
@@ -68,84 +75,64 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
     Ok(description)
 }
 
-/// A scene file and the files that it names beside those on disk.
-#[derive(Debug)]
-pub struct WrittenScene {
-    /// TOML
-    pub text: String,
-    /// Where they are to be written, with their contents.
-    pub files: Vec<(PathBuf, Vec<u8>)>,
-    /// What is not exact.
-    pub report: ImportReport,
-}
-
-/// An imported scene as a scene file that is to be written to `target`, and that renders the same picture.
-pub fn as_scene_file(path: &Path, target: &Path, options: &LoadOptions) -> Result<WrittenScene, SceneError> {
-    let description = load(&options.access()?.files, path, options)?;
-    let folder = target.parent().unwrap_or(Path::new(""));
-    let stem = target.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let beside = PathBuf::from(format!("{stem}-files"));
-    let file_name = |file: &FileReference| match file {
-        FileReference::Disk(path) => relative_to(folder, path),
-        FileReference::Held(index) => {
-            beside.join(description.held.get(*index).map_or("", |(name, _)| name)).to_string_lossy().replace('\\', "/")
-        }
-    };
-    let mut text = Text { text: format!("# Imported from {}.\n", show(path).replace('\n', " ")), origins: Vec::new() };
-    text.push(&description, &file_name);
-    let contents = description.held.iter().map(|(name, content)| {
-        let bytes = match content {
-            HeldContent::Mesh(mesh) => write_ply(mesh),
-            HeldContent::Bytes(bytes) => bytes.to_vec(),
-        };
-        (folder.join(&beside).join(name), bytes)
-    });
-    Ok(WrittenScene { files: contents.collect(), text: text.text, report: description.report })
-}
-
-/// A path as a file in the folder names it: relative where it lies within, else from the root.
-fn relative_to(folder: &Path, path: &Path) -> String {
-    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let real = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| absolute(path));
-    let (folder, path) = (real(folder), real(path));
-    path.strip_prefix(&folder).unwrap_or(&path).to_string_lossy().replace('\\', "/")
-}
-
 /// Adds what a scene lacks: a camera, and light.
 fn frame(description: &mut Description, name: &str) -> Result<(), SceneError> {
+    let place = Place::from(Origin { file: name.to_owned(), ..Origin::default() });
+    add_stage(description, name, &place)?.map_err(|message| SceneError::in_file(name, message))
+}
+
+/// The inner error is a sentence about a number that is out of range.
+fn add_stage(description: &mut Description, name: &str, place: &Place) -> Result<Result<(), String>, SceneError> {
     let lit = description.has_light();
-    if description.camera.is_some() && lit {
-        return Ok(());
-    }
-    if description.camera.is_some() {
-        // The camera may stand anywhere, even where a ground or a lamp would hide what it looks at.
-        description.lights.push(sky());
-        return Ok(());
+    if description.file.camera.is_some() {
+        // The camera may stand anywhere, even where a ground or an emitter would hide what it looks at.
+        return Ok(if lit { Ok(()) } else { add_sky(description, place) });
     }
     let points = description.points();
     if points.is_empty() && lit {
-        let keys = Keys::new().with("position", DVec3::ZERO).with("look_at", DVec3::NEG_Z).with("vfov", FIELD_OF_VIEW);
-        description.camera = Some(Entry { keys, ..Entry::default() });
-        return Ok(());
+        return Ok(add_camera(description, DVec3::ZERO, DVec3::NEG_Z, place));
     }
-    let stage = Stage::around(&points, name)?;
-    let camera = &stage.camera;
-    let keys = Keys::new().with("position", camera.position).with("look_at", camera.look_at).with("vfov", FIELD_OF_VIEW);
-    description.camera = Some(Entry { keys, ..Entry::default() });
-    if lit {
-        return Ok(());
+    let Stage { ground, light, camera } = Stage::around(&points, name)?;
+    let mut made = add_camera(description, camera.position, camera.look_at, place);
+    if !lit {
+        made = made.and_then(|()| add_sky(description, place)).and_then(|()| add_surfaces(description, ground, light, place));
     }
-    description.lights.push(sky());
-    let (ground, light) = (stage.ground, stage.light);
-    let plane = Keys::of_type("plane").with("point", ground.point).with("normal", DVec3::Y);
-    let rectangle =
-        Keys::of_type("rectangle").with("corner", light.corner).with("edge_u", light.edge_u).with("edge_v", light.edge_v);
-    description.add_surface("(ground)", Keys::of_type("diffuse").with("reflectance", GROUND), plane);
-    description.add_surface("(light)", Keys::of_type("emissive").with("radiance", LIGHT), rectangle);
+    Ok(made)
+}
+
+fn add_camera(description: &mut Description, position: DVec3, look_at: DVec3, place: &Place) -> Result<(), String> {
+    let vfov = Some(place.at(Checked::of(FIELD_OF_VIEW)?));
+    description.file.camera = Some(CameraTable { vfov, ..camera_at(position, look_at, DVec3::Y, place)? });
     Ok(())
 }
 
-fn sky() -> Entry {
-    Entry { keys: Keys::of_type("environment").with("radiance", SKY), ..Entry::default() }
+fn add_sky(description: &mut Description, place: &Place) -> Result<(), String> {
+    let radiance = Rgb::of(DVec3::splat(SKY))?;
+    description.file.light.push(place.at(LightEntry::Environment(environment::Keys::constant(place.at(radiance)))));
+    Ok(())
+}
+
+/// Adds the ground and the light of a stage, each with a material of its own.
+fn add_surfaces(description: &mut Description, ground: Plane, light: Rectangle, place: &Place) -> Result<(), String> {
+    let material = Some(place.at(description.free_material_name("(ground)")));
+    let keys = diffuse::Keys { reflectance: Colour::constant(DVec3::splat(GROUND))?, ..Default::default() };
+    add_material(description, MaterialEntry::Diffuse(keys), &material);
+    let plane = ShapeEntry::Plane(plane::Keys::of(ground.point, DVec3::Y, place)?);
+    add_shape(description, plane, material, place);
+    let material = Some(place.at(description.free_material_name("(light)")));
+    let keys = emissive::Keys { radiance: Colour::constant(DVec3::splat(LIGHT))?, ..Default::default() };
+    add_material(description, MaterialEntry::Emissive(keys), &material);
+    let rectangle = ShapeEntry::Rectangle(rectangle::Keys::of([light.corner, light.edge_u, light.edge_v], place)?);
+    add_shape(description, rectangle, material, place);
+    Ok(())
+}
+
+fn add_material(description: &mut Description, mut material: MaterialEntry, name: &Option<Located<String>>) {
+    *material.common_mut().name = name.clone().unwrap_or_default();
+    description.file.material.push(material);
+}
+
+fn add_shape(description: &mut Description, mut shape: ShapeEntry, material: Option<Located<String>>, place: &Place) {
+    *shape.common_mut().material = material;
+    description.file.shape.push(place.at(shape));
 }

@@ -10,7 +10,7 @@ use super::error::{SceneError, show};
 use super::files::MOST_SCENE_BYTES;
 use super::model::ModelFormat;
 use super::view::ModelView;
-use super::{encoding, file, formats, framing, import_file, memory, presets};
+use super::{encoding, file, formats, framing, import_file, memory, presets, scene_file};
 use crate::input;
 use crate::scene::Scene;
 
@@ -72,7 +72,7 @@ impl SceneSource {
         match self {
             Self::BuiltIn(name) => {
                 let text = builtin_text(name).ok_or_else(|| SceneError::in_file(name, "is no built-in scene"))?;
-                file::load_toml(text, name, Path::new(FOLDER), access)
+                scene_file::load_toml(text, name, Path::new(FOLDER), access)
             }
             Self::StandardInput => {
                 let read = input::read_to_end(std::io::stdin().lock(), 0, most_scene_bytes());
@@ -89,7 +89,7 @@ impl SceneSource {
             }
             Self::Import(path) => {
                 let description = import_file::load(&access.files, path, options)?;
-                file::load_description(description, &show(path), access)
+                scene_file::load_description(description, &show(path), access)
             }
         }
     }
@@ -102,14 +102,14 @@ impl SceneSource {
 
 /// Reads a model with the material that is asked for.
 fn load_model(path: &Path, view: &ModelView, access: Access) -> Result<Scene, SceneError> {
-    let Some(material) = &view.material else { return file::load_model(path, view.smooth, access) };
+    let Some(material) = &view.material else { return scene_file::load_model(path, view.smooth, None, access) };
     let library = Path::new(material);
     if library.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         let read = access.files.log().read(library, most_scene_bytes());
         let bytes = read.map_err(|error| SceneError::in_file(show(library), format!("cannot be read: {error}")))?;
         let (text, _) = encoding::decode(&bytes);
         let folder = library.parent().unwrap_or(Path::new(""));
-        return file::load_model_of(path, view.smooth, (&show(library), &text, folder), access);
+        return scene_file::load_model(path, view.smooth, Some((&show(library), &text, folder)), access);
     }
     let Some(text) = presets::preset(material) else {
         let names: Vec<&str> = presets::preset_names().collect();
@@ -118,7 +118,7 @@ fn load_model(path: &Path, view: &ModelView, access: Access) -> Result<Scene, Sc
             SceneError::in_file(material, "is no material").with_help(format!("{help}; or a .toml file with a [[material]]"))
         );
     };
-    file::load_model_of(path, view.smooth, (material, text, Path::new("")), access)
+    scene_file::load_model(path, view.smooth, Some((material, text, Path::new(""))), access)
 }
 
 /// As many bytes as can be parsed in the memory that is free: the tree of a text takes a hundred times as much at worst.
@@ -129,7 +129,7 @@ fn most_scene_bytes() -> u64 {
 fn load_bytes(read: std::io::Result<Vec<u8>>, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {
     let bytes = read.map_err(|error| SceneError::in_file(name, format!("cannot be read: {error}")))?;
     match encoding::decode(&bytes) {
-        (text, None) => file::load_toml(&text, name, folder, access),
+        (text, None) => scene_file::load_toml(&text, name, folder, access),
         (_, Some(encoding)) => {
             let message = format!("is not a text in UTF-8 but, as it seems, in {encoding}");
             Err(SceneError::in_file(name, message).with_help("save it as UTF-8"))

@@ -17,7 +17,10 @@ pub struct Sources {
 /// How a picture was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImageSource {
+    /// The file, or the name of one that stands within another file.
     pub path: PathBuf,
+    /// The content of a file that stands within another one.
+    pub embedded: Option<Arc<[u8]>>,
     /// The colour space that was asked for; None for the format's own.
     pub color_space: Option<ColorSpace>,
     /// Factor of its values.
@@ -56,7 +59,8 @@ impl Sources {
 
     /// Every file that something of the scene came from.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
-        let images = self.images.values().map(|(_, source)| source.path.as_path());
+        let images = self.images.values().filter(|(_, source)| source.embedded.is_none());
+        let images = images.map(|(_, source)| source.path.as_path());
         images.chain(self.meshes.values().map(|(_, source)| source.path.as_path()))
     }
 }

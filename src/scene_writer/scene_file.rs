@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::needed::Needed;
 use super::{animation, material, settings, shape, texture};
-use crate::load::file::write_light;
 use crate::load::file::writer::{Names, SideFiles, Writer, line, text as quoted};
+use crate::load::file::{FORMAT_VERSION, write_light};
 use crate::scene::Scene;
 
 /// The text of the scene file that would lie at `path`.
@@ -20,7 +20,7 @@ pub fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
         nodes: Names::unique(animation.nodes.iter().map(|node| node.name.as_str()), "node"),
         files: SideFiles::beside(path),
     };
-    let mut text = settings::settings(scene);
+    let mut text = line("version", &FORMAT_VERSION.to_string()) + "\n" + &settings::settings(scene);
     // The camera's table is the last.
     let of_camera = animation.camera.as_ref();
     text += &of_camera.map_or_else(String::new, |track| animation::camera(track, scene.camera.projection, &writer.nodes));

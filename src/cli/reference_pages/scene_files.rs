@@ -76,6 +76,7 @@ complete and check scene files with [scenes/scene.schema.json](../scenes/scene.s
 - Every surface reflects on both sides. Its front is where the normal points: outward for spheres and boxes, `edge_u × edge_v` for rectangles, \
 where vertices run counter-clockwise for triangles.
 - Paths of files are relative to the scene file.
+- `version = 1`, above all tables, names the version of the format, which may be left out. A file of a newer version is refused.
 ";
 
 /// The whole page; `remake` is the command that makes it.
@@ -84,7 +85,7 @@ pub fn page(schema: &Value, remake: &str) -> String {
     let _ =
         write!(page.text, "<!-- Made by `{remake}`: change src/load/file/syntax and src/scene/settings, not this page. -->\n\n");
     let _ = write!(page.text, "# Scene files\n\n{}\n\n{CONVENTIONS}\n```toml\n{EXAMPLE}```\n", description(schema));
-    for (name, table) in entries(schema, "properties") {
+    for (name, table) in entries(schema, "properties").filter(|(_, table)| table["type"] != "integer") {
         match table.get("items") {
             Some(entry) => page.table(&format!("`[[{name}]]`"), entry),
             None => page.table(&format!("`[{name}]`"), table),

@@ -9,6 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
+use super::reference::{NamesTextures, TextureName};
 use super::value::{Checked, Exactly, Located, NonNegative, Rule, Temperature, triple};
 use crate::black_body::black_body;
 use crate::math::srgb_to_linear_f64;
@@ -35,7 +36,7 @@ pub enum Scalar<R> {
 /// `{ texture = "name", … }`, its factor a colour or a number.
 #[derive(Debug, Clone)]
 pub struct TextureReference<F> {
-    pub texture: Located<String>,
+    pub texture: Located<TextureName>,
     pub channel: Option<Channel>,
     pub factor: Option<F>,
 }
@@ -46,7 +47,7 @@ pub struct TextureReference<F> {
 #[schemars(rename = "TextureOfColours")]
 struct ColourTexture {
     /// A `[[texture]]`'s name.
-    texture: Located<String>,
+    texture: Located<TextureName>,
     /// The channel that is taken for a grey; the colour when left out.
     channel: Option<ChannelName>,
     /// Multiplies the texture, 1 when left out.
@@ -57,7 +58,7 @@ struct ColourTexture {
 #[derive(Debug, Clone, serde::Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with the key `texture` or `kelvin`")]
 struct ColourTable {
-    texture: Option<Located<String>>,
+    texture: Option<Located<TextureName>>,
     channel: Option<ChannelName>,
     kelvin: Option<Checked<Temperature>>,
     factor: Option<Rgb<NonNegative>>,
@@ -118,7 +119,7 @@ fn hexadecimal(text: &str) -> Option<DVec3> {
 #[schemars(rename = "TextureOfNumbers")]
 struct ScalarTexture {
     /// A `[[texture]]`'s name.
-    texture: Located<String>,
+    texture: Located<TextureName>,
     /// The channel that counts; the red one when left out.
     channel: Option<ChannelName>,
     /// Multiplies the texture, 1 when left out.
@@ -224,6 +225,15 @@ impl<'de, R: Rule, T: Deserialize<'de>> Visitor<'de> for FormVisitor<R, T> {
 }
 
 impl<R: Rule> Rgb<R> {
+    /// The colour.
+    ///
+    /// # Errors
+    /// A sentence about a channel that `R` does not accept.
+    pub fn of(colour: DVec3) -> Result<Self, String> {
+        colour.to_array().into_iter().try_for_each(|channel| Checked::<R>::of(channel).map(|_| ()))?;
+        Ok(Self(colour, PhantomData))
+    }
+
     /// Reads three numbers or one that stands for all three; `words` say what is expected.
     pub fn deserialize_as<'de, D: Deserializer<'de>>(deserializer: D, words: &'static str) -> Result<DVec3, D::Error> {
         let visitor = FormVisitor::<R, IgnoredAny> { words, triple: true, texture: false, code: false, of: PhantomData };
@@ -306,6 +316,94 @@ impl<R: Rule, T: JsonSchema> JsonSchema for NumberOr<R, T> {
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         any_of(vec![generator.subschema_for::<Checked<R>>(), generator.subschema_for::<T>()])
+    }
+}
+
+impl<R: Rule> Colour<R> {
+    /// The colour itself.
+    ///
+    /// # Errors
+    /// A sentence about a channel that `R` does not accept.
+    pub fn constant(colour: DVec3) -> Result<Self, String> {
+        Rgb::of(colour).map(Self::Constant)
+    }
+
+    /// A texture times a factor.
+    ///
+    /// # Errors
+    /// A sentence about a factor below 0.
+    pub fn of_texture(texture: Located<TextureName>, factor: DVec3) -> Result<Self, String> {
+        let factor = if factor == DVec3::ONE { None } else { Some(Rgb::of(factor)?) };
+        Ok(Self::Texture(TextureReference { texture, channel: None, factor }))
+    }
+}
+
+impl<R> Colour<R> {
+    /// The largest channel, where textures are at most white.
+    pub fn largest(&self) -> f64 {
+        match self {
+            Self::Constant(colour) => colour.0.max_element(),
+            Self::Texture(texture) => texture.factor.as_ref().map_or(1.0, |factor| factor.0.max_element()),
+        }
+    }
+}
+
+impl<R: Rule> Scalar<R> {
+    /// The number itself.
+    ///
+    /// # Errors
+    /// A sentence about a number that `R` does not accept.
+    pub fn constant(number: f64) -> Result<Self, String> {
+        Checked::of(number).map(Self::Constant)
+    }
+
+    /// A channel of a texture, the red one where none is said, times a factor.
+    ///
+    /// # Errors
+    /// A sentence about a factor below 0.
+    pub fn of_texture(texture: Located<TextureName>, channel: Option<Channel>, factor: f64) -> Result<Self, String> {
+        let factor = if factor == 1.0 { None } else { Some(Checked::of(factor)?) };
+        Ok(Self::Texture(TextureReference { texture, channel, factor }))
+    }
+}
+
+/// Black.
+impl<R> Default for Colour<R> {
+    fn default() -> Self {
+        Self::Constant(Rgb(DVec3::ZERO, PhantomData))
+    }
+}
+
+/// 0
+impl Default for Scalar<NonNegative> {
+    fn default() -> Self {
+        Self::Constant(Checked::ZERO)
+    }
+}
+
+impl<R> NamesTextures for Rgb<R> {}
+
+impl<R> NamesTextures for Colour<R> {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        if let Self::Texture(reference) = self {
+            reference.texture.each_texture(visit);
+        }
+    }
+}
+
+impl<R> NamesTextures for Scalar<R> {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        if let Self::Texture(reference) = self {
+            reference.texture.each_texture(visit);
+        }
+    }
+}
+
+impl<R, T: NamesTextures> NamesTextures for NumberOr<R, T> {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        if let Self::Table(table) = self {
+            table.each_texture(visit);
+        }
     }
 }
 

@@ -8,9 +8,9 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::{self, Mistake, Node};
-use super::wording;
+use super::syntax::FORMAT_VERSION;
 use crate::load::error::{MOST_ERRORS, SceneError};
-use crate::load::import::{Origin, Text};
+use crate::load::place::Place;
 
 /// A scene file's text.
 #[derive(Clone)]
@@ -18,31 +18,13 @@ pub struct Document<'a> {
     /// How errors call the file.
     pub name: &'a str,
     pub text: &'a str,
-    /// Imported text, which is parsed by itself: blank as far as `text` goes, so that places in both are told apart.
-    imported: &'a str,
-    /// What parts of the text were made from, where no person wrote it.
-    pub origins: &'a [Origin],
     /// What the text was parsed into, if it was: large texts take long.
     tree: Arc<OnceLock<Node<'a>>>,
 }
 
 impl<'a> Document<'a> {
-    pub fn new(name: &'a str, text: &'a str, origins: &'a [Origin]) -> Self {
-        Self { name, text, imported: "", origins, tree: Arc::default() }
-    }
-
-    /// Joins the text with its imports, whose text begins as [`Self::room_for_imports`] does: the lists of both are read as one.
-    pub fn with_imports<'b>(&self, imported: &'b Text) -> Document<'b>
-    where
-        'a: 'b,
-    {
-        let Text { text, origins } = imported;
-        Document { name: self.name, text: self.text, imported: text, origins, tree: Arc::default() }
-    }
-
-    /// Blank text in the place of this one.
-    pub fn room_for_imports(&self) -> String {
-        " ".repeat(self.text.len()) + "\n"
+    pub fn new(name: &'a str, text: &'a str) -> Self {
+        Self { name, text, tree: Arc::default() }
     }
 
     /// Reads the text into the types of what is written.
@@ -55,14 +37,32 @@ impl<'a> Document<'a> {
         Self { tree: Arc::default(), ..self }
     }
 
-    /// Reads one key of the text, and nothing else.
-    pub fn read_key<T: DeserializeOwned>(&self, key: &str) -> Result<T, SceneError> {
-        reader::read_part(self.root()?, key, None).map_err(|mistake| self.translate(mistake))
+    /// Reads the text into a type of which any part may be missing.
+    ///
+    /// # Errors
+    /// The first mistake of each table and of each entry of a list.
+    pub fn read_whole<T: DeserializeOwned>(&self) -> Result<T, SceneError> {
+        self.check_version()?;
+        self.read().map_err(|first| self.all_mistakes::<T>(first))
     }
 
-    /// All that keeps the text from being read, of each table and each entry of a list the first mistake. `first` is what the whole
-    /// text was refused for; `Part` is a file of which anything may be missing.
-    pub fn all_mistakes<Part: DeserializeOwned>(&self, first: SceneError) -> SceneError {
+    /// Refuses a file of a newer version of the format, whose keys may be others.
+    fn check_version(&self) -> Result<(), SceneError> {
+        let Some(value) = self.root()?.get("version") else { return Ok(()) };
+        let version = value.get_ref().as_integer().and_then(|digits| u64::from_str_radix(digits.as_str(), digits.radix()).ok());
+        match version.filter(|version| *version > FORMAT_VERSION.into()) {
+            None => Ok(()),
+            Some(version) => {
+                let message = format!(
+                    "the file is of version {version} of the scene format, and this gpt reads version {FORMAT_VERSION}: take a newer gpt"
+                );
+                Err(self.error_in_text(value.span(), message))
+            }
+        }
+    }
+
+    /// All that keeps the text from being read; `first` is what the whole text was refused for.
+    fn all_mistakes<Part: DeserializeOwned>(&self, first: SceneError) -> SceneError {
         let Ok(root) = self.root() else { return first };
         let mut parts = Vec::new();
         for (key, value) in root {
@@ -83,40 +83,25 @@ impl<'a> Document<'a> {
         SceneError::of_all(found).unwrap_or(first)
     }
 
+    /// An error about what is stated at a place.
+    pub fn error(&self, place: &Place, message: impl Into<String>) -> SceneError {
+        match place {
+            Place::Text { .. } => self.error_in_text(place.span(), message),
+            Place::Imported(origin) => origin.error(message),
+        }
+    }
+
     /// An error about the value written at `span`.
-    pub fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
-        let is_named = self.origin_at(span.start).is_some_and(|origin| !origin.place.key.is_empty());
-        let key = if is_named { String::new() } else { self.key_at(&span) };
-        self.error_at(span, key, message.into())
-    }
-
-    /// As [`Self::error`], with this key where the text was not made from something that has its own.
-    fn error_at(&self, span: Range<usize>, key: String, message: String) -> SceneError {
-        let Some(origin) = self.origin_at(span.start) else {
-            return SceneError::in_text(self.name, self.text, span, message).with_key(key);
-        };
-        let error = match (origin.place.line, origin.place.file.as_str()) {
-            (Some(line), file) => SceneError::in_line(file, line, message),
-            (None, "") => SceneError::in_file(self.name, message),
-            (None, file) => SceneError::in_file(file, message),
-        };
-        error.with_key(if origin.place.key.is_empty() { &key } else { &origin.place.key })
-    }
-
-    /// What the text at a byte was made from.
-    fn origin_at(&self, at: usize) -> Option<&'a Origin> {
-        self.origins[..self.origins.partition_point(|origin| origin.start <= at)].last()
+    fn error_in_text(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
+        let key = self.key_at(&span);
+        SceneError::in_text(self.name, self.text, span, message).with_key(key)
     }
 
     fn parsed(&self) -> Result<&Node<'a>, SceneError> {
         if let Some(tree) = self.tree.get() {
             return Ok(tree);
         }
-        let mut root = DeTable::parse(self.text).map_err(|error| self.syntax_error(&error, self.text))?;
-        if !self.imported.is_empty() {
-            let imported = DeTable::parse(self.imported).map_err(|error| self.syntax_error(&error, self.imported))?;
-            join(root.get_mut(), imported.into_inner());
-        }
+        let root = DeTable::parse(self.text).map_err(|error| self.syntax_error(&error))?;
         Ok(self.tree.get_or_init(|| Spanned::new(root.span(), DeValue::Table(root.into_inner()))))
     }
 
@@ -126,30 +111,29 @@ impl<'a> Document<'a> {
     }
 
     /// A text that does not parse has no tree, in which the key would be looked up.
-    fn syntax_error(&self, error: &toml::de::Error, text: &str) -> SceneError {
+    fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let span = error.span().unwrap_or(0..self.text.len().min(1));
         let message = match error.message() {
-            "duplicate key" => format!("duplicate key `{}`", text.get(span.clone()).unwrap_or_default()),
-            other => wording::in_plain_words(other).0,
+            "duplicate key" => format!("duplicate key `{}`", self.text.get(span.clone()).unwrap_or_default()),
+            other => other.to_owned(),
         };
-        self.error_at(span, String::new(), message)
+        SceneError::in_text(self.name, self.text, span, message)
     }
 
     fn translate(&self, mistake: Mistake) -> SceneError {
         let span = mistake.span.unwrap_or(0..self.text.len().min(1));
-        let (message, help) = wording::in_plain_words(&mistake.message);
-        let located = self.error(span, message);
-        match help {
+        let located = self.error_in_text(span, mistake.message);
+        match mistake.help {
             Some(help) => located.with_help(help),
             None => located,
         }
     }
 
-    /// The bytes of a key's value in a table at the top; none where it is not written.
-    pub fn span_of(&self, table: &str, key: &str) -> Range<usize> {
-        let Ok(root) = self.root() else { return 0..0 };
+    /// The place of a key's value in a table at the top; no bytes where it is not written.
+    pub fn place_of(&self, table: &str, key: &str) -> Place {
+        let Ok(root) = self.root() else { return Place::default() };
         let value = root.get(table).and_then(|table| table.get_ref().get(key));
-        value.map_or(0..0, Spanned::span)
+        value.map_or_else(Place::default, |value| value.span().into())
     }
 
     /// The dotted path of the innermost key or value around `span`; empty at the top.
@@ -158,20 +142,6 @@ impl<'a> Document<'a> {
         let mut innermost = Innermost { wanted: span, path: String::new(), width: usize::MAX };
         innermost.search_table(root, "");
         innermost.path
-    }
-}
-
-/// Appends the lists of another table, and takes over what only that one has. A person's own value of another kind stays, and is told about.
-fn join<'a>(table: &mut DeTable<'a>, other: DeTable<'a>) {
-    for (key, value) in other {
-        let span = value.span();
-        match (table.get_mut(key.get_ref().as_ref()).map(Spanned::get_mut), value.into_inner()) {
-            (Some(DeValue::Array(list)), DeValue::Array(more)) => more.into_iter().for_each(|entry| list.push(entry)),
-            (Some(_), _) => {}
-            (None, value) => {
-                table.insert(key, Spanned::new(span, value));
-            }
-        }
     }
 }
 

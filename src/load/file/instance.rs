@@ -9,16 +9,17 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::nested::{FileGroup, Groups, Held};
+use super::place_file::{PLACE_NUMBERS, PlaceFormat, place_rows};
+use super::reference::FileOr;
 use super::resolver::Resolver;
 use super::shape::{ShapeEntry, TransformEntry};
 use super::value::{Exactly, LARGEST, Located, Number, Vector, vector};
 use crate::load::error::{SceneError, show};
 use crate::load::files::MOST_MODEL_BYTES;
-use crate::load::import::{PLACE_NUMBERS, PlaceFormat};
 use crate::scene::{Geometry, Group, Instances, Material, MaterialKind, Transform, is_singular};
 
 /// Meshes that are stored once, and instances of other groups. They are seen where an `[[instance]]` names the group.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "Group", extend("anyOf" = [
     { "required": ["shape"], "properties": { "shape": { "minItems": 1 } } },
@@ -27,67 +28,67 @@ use crate::scene::{Geometry, Group, Instances, Material, MaterialKind, Transform
 pub struct GroupEntry {
     /// What instances call it.
     #[schemars(extend("minLength" = 1))]
-    name: Located<String>,
+    pub name: Located<String>,
     /// Its meshes, each a `[[group.shape]]` of type `mesh` in the group's own space.
     #[serde(default)]
-    shape: Vec<Located<ShapeEntry>>,
+    pub shape: Vec<Located<ShapeEntry>>,
     /// Other groups within it, each a `[[group.instance]]`. Those may hold groups too, up to 64 within each other.
     #[serde(default)]
-    instance: Vec<Located<HeldEntry>>,
+    pub instance: Vec<Located<HeldEntry>>,
 }
 
 /// A group within another one, at rest in that one's space.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "HeldInstance", extend("not" = { "required": ["places", "file"] }))]
 pub struct HeldEntry {
     /// The name of another `[[group]]`, which does not hold this one.
-    group: Located<String>,
+    pub group: Located<String>,
     /// Steps applied in this order, or a matrix; after the places, where there are some.
-    transform: Option<Located<TransformEntry>>,
+    pub transform: Option<Located<TransformEntry>>,
     /// As an `[[instance]]`'s.
-    places: Option<Located<Vec<Located<Exactly<Number, 12>>>>>,
+    pub places: Option<Located<Vec<Located<Exactly<Number, 12>>>>>,
     /// As an `[[instance]]`'s.
     #[schemars(extend("pattern" = "\\.([fF]32|[fF]64|[cC][sS][vV]|[tT][xX][tT])$"))]
-    file: Option<Located<String>>,
+    pub file: Option<Located<FileOr<[DAffine3]>>>,
     /// A `[[material]]` for all faces, in place of the group's own, where the instance around names none.
-    material: Option<Located<String>>,
+    pub material: Option<Located<String>>,
 }
 
 /// A group of meshes in one place, or in as many as `places` or `file` have.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "Instance", extend("not" = { "required": ["places", "file"] }, "dependentRequired" = { "pivot": ["motion"] }))]
 pub struct InstanceEntry {
     /// A `[[group]]`'s name.
-    group: Located<String>,
+    pub group: Located<String>,
     /// Steps applied in this order, or a matrix; after the places, where there are some.
-    transform: Option<Located<TransformEntry>>,
+    pub transform: Option<Located<TransformEntry>>,
     /// A place for each instance: the 12 numbers of a matrix of 3 rows and 4 columns, row by row.
-    places: Option<Located<Vec<Located<Exactly<Number, 12>>>>>,
+    pub places: Option<Located<Vec<Located<Exactly<Number, 12>>>>>,
     /// Path of a file of such places, relative to the scene file: `.f32` and `.f64` hold numbers of that many bits, little-endian, one behind the
     /// other; `.csv` and `.txt` a line of 12 numbers for each place, between commas or blanks.
     #[schemars(extend("pattern" = "\\.([fF]32|[fF]64|[cC][sS][vV]|[tT][xX][tT])$"))]
-    file: Option<Located<String>>,
+    pub file: Option<Located<FileOr<[DAffine3]>>>,
     /// A `[[material]]` for all faces, in place of the group's own; faces of type `pass` stay openings. Instances of which a face emits stand in the scene
     /// one by one, as if each were written as `[[shape]]`s.
-    material: Option<Located<String>>,
+    pub material: Option<Located<String>>,
     /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1, along the world's axes and about where each instance has the
     /// group's (0, 0, 0), or about `pivot`.
     #[schemars(extend("allOf" = [{ "not": { "anyOf": [
         { "type": "object", "required": ["matrix"] },
         { "type": "array", "contains": { "type": "object", "required": ["matrix"] } },
     ] } }]))]
-    motion: Option<Located<TransformEntry>>,
+    pub motion: Option<Located<TransformEntry>>,
     /// A point of the world, at shutter time 0, about which `motion` turns and scales all of the instances.
-    pivot: Option<Located<Vector>>,
+    pub pivot: Option<Located<Vector>>,
 }
 
 /// Where instances stand, as it is written.
 struct WrittenPlaces<'a> {
     transform: Option<&'a Located<TransformEntry>>,
     places: Option<&'a Located<Vec<Located<Exactly<Number, 12>>>>>,
-    file: Option<&'a Located<String>>,
+    file: Option<&'a Located<FileOr<[DAffine3]>>>,
 }
 
 impl Resolver<'_> {
@@ -97,7 +98,7 @@ impl Resolver<'_> {
         for (index, entry) in written.iter().enumerate() {
             let name = entry.name.value.clone();
             if entry.shape.is_empty() && entry.instance.is_empty() {
-                self.note::<()>(Err(self.error(&entry.name.span, format!("the group `{name}` has no shapes"))));
+                self.note::<()>(Err(self.error(&entry.name.place, format!("the group `{name}` has no shapes"))));
             }
             let own = self.group_shapes(index, entry);
             let mut held = Vec::with_capacity(entry.instance.len());
@@ -136,10 +137,10 @@ impl Resolver<'_> {
         let maps: Vec<DAffine3> = places.into_iter().map(|place| around * place).collect();
         if let Some(place) = maps.iter().position(|map| !map.is_finite() || is_singular(map.matrix3)) {
             let message = format!("the transform of number {place}, counted from 0, flattens it or leaves the range of numbers");
-            return Err(self.error(&written.group.span, message));
+            return Err(self.error(&written.group.place, message));
         }
         let material = written.material.as_ref().map(|name| self.material_id(name)).transpose()?;
-        Ok(Held { group, maps, material, named_at: written.group.span.clone() })
+        Ok(Held { group, maps, material, named_at: written.group.place.clone() })
     }
 
     fn group_shape(&mut self, place: usize, written: &Located<ShapeEntry>) -> Result<crate::scene::Shape, SceneError> {
@@ -148,11 +149,11 @@ impl Resolver<'_> {
         let shape = shape?;
         if !matches!(shape.geometry, Geometry::Mesh(_)) {
             let message = format!("a group consists of meshes, and this is a {}", shape.geometry.kind_name());
-            return Err(self.error(&written.span, message).with_help("write it as a [[shape]] for each place, or as a mesh"));
+            return Err(self.error(&written.place, message).with_help("write it as a [[shape]] for each place, or as a mesh"));
         }
         if shape.motion.is_some() || is_bent || written.value.is_animated() || shape.portal {
             let message = "a mesh of a group has no motion of its own, is not bent and is no portal";
-            return Err(self.error(&written.span, message).with_help("an [[instance]] can have `motion`"));
+            return Err(self.error(&written.place, message).with_help("an [[instance]] can have `motion`"));
         }
         Ok(shape)
     }
@@ -169,7 +170,7 @@ impl Resolver<'_> {
         let mut count = 0;
         for (index, entry) in written.iter().enumerate() {
             let instances = self.instances_of(index, entry, names, groups).and_then(|instances| {
-                groups.check_count(&instances, count).map_err(|message| self.error(&entry.span, message))?;
+                groups.check_count(&instances, count).map_err(|message| self.error(&entry.place, message))?;
                 named[instances.group] = true;
                 count += groups.count(&instances);
                 let all = groups.expanded(&instances, &|id| matches!(self.scene.materials[id].kind, MaterialKind::Pass));
@@ -185,7 +186,7 @@ impl Resolver<'_> {
                             groups.name(instances.group)
                         ),
                     };
-                    match lit.map_err(|message| self.error(&entry.span, of_held(message)))? {
+                    match lit.map_err(|message| self.error(&entry.place, of_held(message)))? {
                         Some(shapes) => copies.extend(shapes),
                         None => kept.push(part),
                     }
@@ -221,10 +222,10 @@ impl Resolver<'_> {
         let material = written.material.as_ref().map(|name| self.material_id(name)).transpose()?;
         let motion = written.motion.as_ref().map_or(Ok(None), |motion| self.motion(motion))?;
         if let (Some(steps), Some(written)) = (&motion, &written.motion) {
-            steps.check(self.scene.camera.shutter).map_err(|(_, message)| self.error(&written.span, message))?;
+            steps.check(self.scene.camera.shutter).map_err(|(_, message)| self.error(&written.place, message))?;
         }
         if let (Some(pivot), None) = (&written.pivot, &written.motion) {
-            return Err(self.error(&pivot.span, "`pivot` is what `motion` is about, which is missing"));
+            return Err(self.error(&pivot.place, "`pivot` is what `motion` is about, which is missing"));
         }
         let pivot = written.pivot.as_ref().map(|pivot| vector(pivot.value));
         let label = format!("instance[{index}] of `{}`", groups.name(group));
@@ -234,7 +235,7 @@ impl Resolver<'_> {
     /// The places, one where none are written, and what comes behind them.
     fn places(&self, written: &WrittenPlaces<'_>) -> Result<(Vec<DAffine3>, Transform), SceneError> {
         let places = match (written.places, written.file) {
-            (Some(places), Some(_)) => return Err(self.error(&places.span, "an instance has either `places` or `file`")),
+            (Some(places), Some(_)) => return Err(self.error(&places.place, "an instance has either `places` or `file`")),
             (Some(places), None) => places.value.iter().map(|place| affine(place.value.0.map(|number| number.0))).collect(),
             (None, Some(file)) => self.places_of_file(file)?,
             (None, None) => vec![DAffine3::IDENTITY],
@@ -243,14 +244,22 @@ impl Resolver<'_> {
         Ok((places, transform))
     }
 
-    fn places_of_file(&self, file: &Located<String>) -> Result<Vec<DAffine3>, SceneError> {
-        let path = self.path(&file.value);
+    fn places_of_file(&self, file: &Located<FileOr<[DAffine3]>>) -> Result<Vec<DAffine3>, SceneError> {
+        let path = match &file.value {
+            FileOr::InMemory(places) => {
+                let is_possible = |map: &DAffine3| place_rows(map).iter().all(|number| number.abs() <= LARGEST);
+                let message = "a place of an instance leaves the range of numbers";
+                return if places.iter().all(is_possible) { Ok(places.to_vec()) } else { Err(self.error(&file.place, message)) };
+            }
+            FileOr::Written(path) => self.folder.join(path),
+            FileOr::OnDisk(path) => path.clone(),
+        };
         let Some(format) = PlaceFormat::of(&path) else {
-            return Err(self.error(&file.span, "a file of places ends in .f32, .f64, .csv or .txt"));
+            return Err(self.error(&file.place, "a file of places ends in .f32, .f64, .csv or .txt"));
         };
         let bytes = self.files().read(&path, MOST_MODEL_BYTES).map_err(|error| {
             let missing = format!("there is no file {}", show(&path));
-            self.error(&file.span, if self.files().exists(&path) { format!("{}: {error}", show(&path)) } else { missing })
+            self.error(&file.place, if self.files().exists(&path) { format!("{}: {error}", show(&path)) } else { missing })
         })?;
         let numbers = format.numbers(&bytes).map_err(|message| SceneError::in_file(show(&path), message))?;
         in_range(&path, &numbers)?;

@@ -11,7 +11,7 @@ use super::value::{Any, Checked, FieldOfView, Located, NonNegative, Number, Posi
 use crate::scene::animation::Interpolation;
 
 /// One factor or one per axis.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ScaleEntry(pub DVec3);
 
 impl<'de> Deserialize<'de> for ScaleEntry {
@@ -30,7 +30,7 @@ impl JsonSchema for ScaleEntry {
 }
 
 /// How frames and seconds belong together.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "Animation")]
 pub struct AnimationTable {
@@ -62,7 +62,7 @@ impl From<InterpolationName> for Interpolation {
 }
 
 /// A transform at a frame: what is scaled first, then turned, then moved. A part that it does not state goes through the keyframes that do.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, translate = [0, 1, 0] }")]
 #[schemars(rename = "TransformKeyframe")]
 #[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
@@ -84,7 +84,7 @@ pub struct TransformKeyEntry {
 }
 
 /// The camera at a frame. What it does not state goes through the keyframes that do, or stays as `[camera]` has it.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, position = [0, 1, 5] }")]
 #[schemars(rename = "CameraKeyframe")]
 #[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
@@ -145,7 +145,7 @@ pub struct WrittenLightTrack<'a, K> {
 }
 
 /// A point light at a frame. What it does not state goes through the keyframes that do, or stays as the light has it.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, position = [0, 1, 5] }")]
 #[schemars(rename = "PointLightKeyframe")]
 #[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
@@ -160,7 +160,7 @@ pub struct PointKeyEntry {
 }
 
 /// A spot light at a frame. What it does not state goes through the keyframes that do, or stays as the light has it.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, direction = [0, -1, 0] }")]
 #[schemars(rename = "SpotLightKeyframe")]
 #[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
@@ -176,7 +176,7 @@ pub struct SpotKeyEntry {
 }
 
 /// A directional light at a frame. What it does not state goes through the keyframes that do, or stays as the light has it.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, direction = [0, -1, 0] }")]
 #[schemars(rename = "DirectionalLightKeyframe")]
 #[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
@@ -191,7 +191,7 @@ pub struct DirectionalKeyEntry {
 }
 
 /// An environment at a frame. What it does not state goes through the keyframes that do, or stays as the light has it.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, rotate = 90 }")]
 #[schemars(rename = "EnvironmentKeyframe")]
 #[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],

@@ -1,12 +1,12 @@
 //! Groups that hold instances of other groups, and the places where all that they hold stands.
 
 use std::collections::HashMap;
-use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
 use crate::load::memory;
+use crate::load::place::Place;
 use crate::scene::{Instances, MaterialId, MotionStep};
 
 /// Most groups within each other.
@@ -28,7 +28,7 @@ pub struct Held {
     /// In place of the held group's own materials.
     pub material: Option<MaterialId>,
     /// Where the file names the held group.
-    pub named_at: Range<usize>,
+    pub named_at: Place,
 }
 
 /// A group as the file has it.
@@ -49,7 +49,7 @@ pub struct Groups {
 }
 
 /// What is wrong with what a group holds, and where that is written.
-pub type Mistake = (Range<usize>, String);
+pub type Mistake = (Place, String);
 
 impl Groups {
     /// # Errors
@@ -244,7 +244,7 @@ mod tests {
     use crate::scene::{Motion, Transform};
 
     fn held(group: usize, maps: Vec<DAffine3>) -> Held {
-        Held { group, maps, material: None, named_at: group..group + 1 }
+        Held { group, maps, material: None, named_at: (group..group + 1).into() }
     }
 
     fn group(own: Option<usize>, held: Vec<Held>) -> FileGroup {
@@ -286,7 +286,10 @@ mod tests {
             group(Some(2), vec![held(0, vec![])]),
         ];
         let (at, message) = Groups::new(groups).expect_err("a circle");
-        assert_eq!((at, &*message), (0..1, "the group `a` contains itself: `a` holds `b`, which holds `c`, which holds `a`"));
+        assert_eq!(
+            (at, &*message),
+            ((0..1).into(), "the group `a` contains itself: `a` holds `b`, which holds `c`, which holds `a`")
+        );
         let (_, message) = Groups::new(vec![group(Some(0), vec![held(0, vec![])])]).expect_err("a circle");
         assert_eq!(message, "the group `a` contains itself");
     }

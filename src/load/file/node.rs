@@ -8,7 +8,7 @@ use super::shape::TransformEntry;
 use super::value::Located;
 
 /// A frame of reference that takes along the shapes and the camera that name it.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "Node", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct NodeEntry {

@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,20 +9,22 @@ use glam::DVec3;
 
 use super::colour::{Colour, Scalar, TextureReference};
 use super::document::Document;
+use super::reference::{FileOr, TextureName};
+use super::suggestion::did_you_mean_name;
 use super::value::{Located, Rule, Vector, vector};
-use super::wording::did_you_mean_name;
 use crate::load::access::Access;
 use crate::load::error::{MOST_ERRORS, SceneError, show};
 use crate::load::files::Files;
-use crate::load::image_file::{Picture, Pictures};
+use crate::load::image_file::{EmbeddedFile, Picture, PictureSource, Pictures};
 use crate::load::model::Substitute;
+use crate::load::place::Place;
 use crate::picture_file::Hints;
 use crate::scene::animation::Deformation;
 use crate::scene::texture::{KnownRanges, range_of_texture};
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.
-pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), CachedImage>;
+pub type ImageCache = HashMap<(PictureSource, Option<ColorSpace>), CachedImage>;
 
 /// An image that was read.
 pub struct CachedImage {
@@ -152,35 +153,40 @@ impl<'a> Resolver<'a> {
     }
 
     /// Properties of a picture that was read which matter for some uses alone.
-    pub(super) fn hints(&self, file: &Path, space: Option<ColorSpace>) -> Hints {
-        self.images.get(&(file.to_owned(), space)).map_or_else(Hints::default, |cached| cached.hints.clone())
+    pub(super) fn hints(&self, file: &PictureSource, space: Option<ColorSpace>) -> Hints {
+        self.images.get(&(file.clone(), space)).map_or_else(Hints::default, |cached| cached.hints.clone())
     }
 
     /// Notes what a picture's header says that is not used.
     ///
     /// # Errors
     /// The same, where that is not allowed.
-    pub(super) fn name_unused(&mut self, file: &Path, note: &str) -> Result<(), String> {
+    pub(super) fn name_unused(&mut self, file: &PictureSource, note: &str) -> Result<(), String> {
         if self.strict {
             return Err(format!("{note}; without --strict, this is a warning"));
         }
-        self.scene.warnings.push(format!("{}: {note}", show(file)));
+        self.scene.warnings.push(format!("{file}: {note}"));
         Ok(())
     }
 
-    /// An error about the value written at `span`; without its place where it will not be told, since to find that takes as long as the file is.
-    pub(super) fn error(&self, span: &Range<usize>, message: impl Into<String>) -> SceneError {
+    /// An error about what is stated at `place`; without its place where it will not be told, since to find that takes as long as the file is.
+    pub(super) fn error(&self, place: &Place, message: impl Into<String>) -> SceneError {
         if self.has_enough_errors() {
             return SceneError::in_file(self.document.name, message);
         }
-        self.document.error(span.clone(), message)
+        self.document.error(place, message)
     }
 
-    pub(super) fn path(&self, file: &str) -> PathBuf {
-        self.folder.join(file)
+    /// The picture that an entry names.
+    pub(super) fn picture_source(&self, file: &FileOr<EmbeddedFile>) -> PictureSource {
+        match file {
+            FileOr::InMemory(content) => PictureSource::Embedded(content.clone()),
+            FileOr::Written(path) => PictureSource::File(self.folder.join(path)),
+            FileOr::OnDisk(path) => PictureSource::File(path.clone()),
+        }
     }
 
-    pub(super) fn texture_id(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
+    pub(super) fn texture_id(&self, name: &Located<TextureName>) -> Result<TextureId, SceneError> {
         self.look_up(&self.texture_names, name, "texture")
     }
 
@@ -201,22 +207,23 @@ impl<'a> Resolver<'a> {
         self.textured[id]
     }
 
-    pub(super) fn look_up(
+    pub(super) fn look_up<N: AsRef<str>>(
         &self,
         names: &HashMap<String, usize>,
-        name: &Located<String>,
+        name: &Located<N>,
         what: &str,
     ) -> Result<usize, SceneError> {
-        if let Some(&id) = names.get(&name.value) {
+        let wanted = name.value.as_ref();
+        if let Some(&id) = names.get(wanted) {
             return Ok(id);
         }
-        let error = self.error(&name.span, format!("there is no {what} named `{}`", name.value));
+        let error = self.error(&name.place, format!("there is no {what} named `{wanted}`"));
         if self.has_enough_errors() {
             return Err(error); // likenesses are looked for among all names
         }
         let mut choices: Vec<&str> = names.keys().map(String::as_str).collect();
         choices.sort_unstable();
-        let help = did_you_mean_name(&name.value, &choices).unwrap_or_else(|| format!("the file has no [[{what}]]"));
+        let help = did_you_mean_name(wanted, &choices).unwrap_or_else(|| format!("the file has no [[{what}]]"));
         Err(error.with_help(help))
     }
 
@@ -229,10 +236,10 @@ impl<'a> Resolver<'a> {
         let mut places = HashMap::new();
         for (place, name) in names.enumerate() {
             if name.value.is_empty() {
-                return Err(self.error(&name.span, "a name cannot be empty"));
+                return Err(self.error(&name.place, "a name cannot be empty"));
             }
             if places.insert(name.value.clone(), place).is_some() {
-                return Err(self.error(&name.span, format!("a second {what} is named `{}`", name.value)));
+                return Err(self.error(&name.place, format!("a second {what} is named `{}`", name.value)));
             }
         }
         Ok(places)
@@ -241,7 +248,7 @@ impl<'a> Resolver<'a> {
     /// A vector of length 1.
     pub(super) fn direction(&self, written: &Located<Vector>) -> Result<DVec3, SceneError> {
         let direction = vector(written.value).try_normalize();
-        direction.ok_or_else(|| self.error(&written.span, "a direction cannot have length 0"))
+        direction.ok_or_else(|| self.error(&written.place, "a direction cannot have length 0"))
     }
 
     pub(super) fn colour<R: Rule>(&self, written: &Colour<R>) -> Result<ColorInput, SceneError> {
@@ -257,7 +264,7 @@ impl<'a> Resolver<'a> {
     /// A texture whose every value is possible where it is used: a reflectance above 1 would make energy. Without a channel its colours count.
     pub(super) fn texture_in_range<R: Rule>(
         &self,
-        name: &Located<String>,
+        name: &Located<TextureName>,
         channel: Option<Channel>,
         factor: DVec3,
     ) -> Result<ColorInput, SceneError> {
@@ -274,8 +281,8 @@ impl<'a> Resolver<'a> {
             None => Ok(input),
             Some(found) => {
                 let times = if factor == DVec3::ONE { "" } else { " times its factor" };
-                let message = format!("expected {}, found {found} in the texture `{}`{times}", R::WORDS, name.value);
-                Err(self.error(&name.span, message))
+                let message = format!("expected {}, found {found} in the texture `{}`{times}", R::WORDS, name.value.0);
+                Err(self.error(&name.place, message))
             }
         }
     }

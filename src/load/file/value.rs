@@ -4,13 +4,15 @@
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
-use std::ops::{Deref, Range};
+use std::ops::Deref;
 
 use glam::DVec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 
 use super::reader::located;
+use super::reference::NamesTextures;
+use crate::load::place::Place;
 use crate::scene::settings::{LARGEST_FILTER_RADIUS, SMALLEST_FILTER_RADIUS};
 
 /// Largest magnitude of any number: its square is still finite in single precision, which is what the device computes in.
@@ -72,14 +74,28 @@ impl<R> Clone for Checked<R> {
 }
 impl<R> Copy for Checked<R> {}
 
+impl<R> PartialEq for Checked<R> {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
 impl<R: Rule> Checked<R> {
     pub fn new<E: Error>(value: f64) -> Result<Self, E> {
-        if R::accepts(value) {
-            Ok(Self(value, PhantomData))
-        } else {
-            Err(E::custom(format_args!("expected {}, found {value}", R::WORDS)))
-        }
+        Self::of(value).map_err(E::custom)
     }
+
+    /// The number.
+    ///
+    /// # Errors
+    /// A sentence about a number that `R` does not accept.
+    pub fn of(value: f64) -> Result<Self, String> {
+        if R::accepts(value) { Ok(Self(value, PhantomData)) } else { Err(format!("expected {}, found {value}", R::WORDS)) }
+    }
+}
+
+impl Checked<NonNegative> {
+    pub const ZERO: Self = Self(0.0, PhantomData);
 }
 
 /// Any finite number.
@@ -87,6 +103,26 @@ pub type Number = Checked<Any>;
 
 /// Three numbers.
 pub type Vector = Exactly<Number, 3>;
+
+impl<T: Default> Default for Exactly<T, 2> {
+    fn default() -> Self {
+        Self(Default::default())
+    }
+}
+
+impl<const N: usize> Exactly<Number, N> {
+    /// These numbers.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of(values: [f64; N]) -> Result<Self, String> {
+        let mut numbers = [Checked(0.0, PhantomData); N];
+        for (number, value) in numbers.iter_mut().zip(values) {
+            *number = Number::of(value)?;
+        }
+        Ok(Self(numbers))
+    }
+}
 
 /// The numbers as a vector.
 pub fn vector(values: Vector) -> DVec3 {
@@ -98,7 +134,7 @@ pub fn triple<R>(values: [Checked<R>; 3]) -> DVec3 {
 }
 
 /// A list of so many values. Serde's arrays leave out what is too much.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exactly<T, const N: usize>(pub [T; N]);
 
 impl<T, const N: usize> Deref for Exactly<T, N> {
@@ -187,19 +223,49 @@ impl<R: Rule> JsonSchema for Checked<R> {
     }
 }
 
-/// A value and the bytes of the file it was written in.
-#[derive(Debug, Clone)]
+/// A value and the place where it is stated.
+#[derive(Clone, Default)]
 pub struct Located<T> {
     pub value: T,
-    pub span: Range<usize>,
+    pub place: Place,
+}
+
+impl Place {
+    /// A value that is stated here.
+    pub fn at<T>(&self, value: T) -> Located<T> {
+        Located { value, place: self.clone() }
+    }
+}
+
+/// Shows the value alone: two entries that state the same look the same.
+impl<T: fmt::Debug> fmt::Debug for Located<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.value.fmt(f)
+    }
+}
+
+/// Compares the values alone.
+impl<T: PartialEq> PartialEq for Located<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
 }
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let (value, span) = located(deserializer)?;
-        Ok(Self { value, span })
+        Ok(Self { value, place: span.into() })
     }
 }
+
+impl<T: NamesTextures> NamesTextures for Located<T> {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        self.value.each_texture(visit);
+    }
+}
+
+impl<R> NamesTextures for Checked<R> {}
+impl<T, const N: usize> NamesTextures for Exactly<T, N> {}
 
 impl<T: JsonSchema> JsonSchema for Located<T> {
     fn schema_name() -> Cow<'static, str> {

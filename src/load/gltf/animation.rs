@@ -12,7 +12,11 @@ use super::importer::Importer;
 use super::json::{Animation, Channel};
 use super::made::{MovingNodes, WeightTrack};
 use super::node::{Placed, local, unit};
-use crate::load::import::{Entry, Keys, Value, list, matrix_value};
+use crate::load::file::keyframes::{InterpolationName, ScaleEntry, TransformKeyEntry};
+use crate::load::file::node::NodeEntry;
+use crate::load::file::shape::TransformEntry;
+use crate::load::file::value::{Exactly, Located, Number};
+use crate::load::place::Place;
 use crate::scene::animation::Turn;
 
 /// Most keyframes of a file.
@@ -95,20 +99,22 @@ impl Importer<'_> {
         let name = self.scene.free_node_name(&wanted);
         let place = self.place(&format!("nodes[{index}]"));
         let mut parent = around;
-        if let Some(matrix) = matrix_value(&between) {
-            let frame = self.scene.free_node_name(&format!("{wanted} (parent)"));
-            let keys = Keys::new().with("name", frame.as_str()).with_some("parent", parent.take()).with("transform", matrix);
-            self.scene.nodes.push(Entry { place: place.clone(), keys });
-            parent = Some(frame);
+        let between = TransformEntry::of_map(&between, &place).map_err(of_node)?;
+        if between.is_some() {
+            let frame = place.at(self.scene.free_node_name(&format!("{wanted} (parent)")));
+            let around = parent.replace(frame.value.clone()).map(|name| place.at(name));
+            let node = NodeEntry { name: frame, parent: around, transform: between, keyframes: None, interpolation: None };
+            self.scene.file.node.push(place.at(node));
         }
-        let (keyframes, is_step) = keyframes(&rest, tracks);
-        let keys = Keys::new()
-            .with("name", name.as_str())
-            .with_some("parent", parent)
-            .with_some("transform", matrix_value(&rest))
-            .with("keyframes", Value::List(keyframes))
-            .with_some("interpolation", is_step.then_some("step"));
-        self.scene.nodes.push(Entry { place, keys });
+        let (keyframes, is_step) = keyframes(&rest, tracks, &place).map_err(of_node)?;
+        let node = NodeEntry {
+            name: place.at(name.clone()),
+            parent: parent.map(|name| place.at(name)),
+            transform: TransformEntry::of_map(&rest, &place).map_err(of_node)?,
+            keyframes: Some(place.at(keyframes)),
+            interpolation: is_step.then(|| place.at(InterpolationName::Step)),
+        };
+        self.scene.file.node.push(place.at(node));
         Ok(name)
     }
 
@@ -274,8 +280,12 @@ fn without_repeats(keys: Vec<(f64, DVec4)>) -> Vec<(f64, DVec4)> {
     (0..keys.len()).filter(|&at| says(at)).map(|at| keys[at]).collect()
 }
 
-/// Keyframes of a node that is at rest there, as a scene file has them, and whether they jump.
-fn keyframes(rest: &DAffine3, mut tracks: HashMap<Part, Track>) -> (Vec<Value>, bool) {
+/// Keyframes of a node that is at rest there, and whether they jump.
+fn keyframes(
+    rest: &DAffine3,
+    mut tracks: HashMap<Part, Track>,
+    place: &Place,
+) -> Result<(Vec<Located<TransformKeyEntry>>, bool), String> {
     let is_step = tracks.values().all(|track| track.is_step);
     if !is_step {
         // Jumps among what moves evenly: the old value stays up to just before the next.
@@ -308,19 +318,17 @@ fn keyframes(rest: &DAffine3, mut tracks: HashMap<Part, Track>) -> (Vec<Value>, 
             let keys = &tracks.get(&part)?.keys;
             keys.binary_search_by(|key| key.0.total_cmp(&time)).ok().map(|place| keys[place].1)
         };
-        let mut keys = Keys::new().with("time", time);
-        if let Some(scale) = at(Part::Scale) {
-            keys.set("scale", list(scale.truncate().to_array()));
-        }
-        if let Some(rotation) = at(Part::Rotation) {
-            let turn = Turn::of(unit(rotation));
-            keys.set("rotate", turn.axis);
-            keys.set("degrees", turn.degrees);
-        }
-        if let Some(translation) = at(Part::Translation) {
-            keys.set("translate", translation.truncate());
-        }
-        Value::Table(keys)
+        let vector = |value: DVec3| Exactly::<Number, 3>::of(value.to_array());
+        let turn = at(Part::Rotation).map(|rotation| Turn::of(unit(rotation)));
+        let scale = at(Part::Scale).map(|scale| vector(scale.truncate()).map(|_| ScaleEntry(scale.truncate())));
+        Ok(place.at(TransformKeyEntry {
+            frame: None,
+            time: Some(Number::of(time)?),
+            scale: scale.transpose()?.map(|scale| place.at(scale)),
+            rotate: turn.map(|turn| vector(turn.axis)).transpose()?.map(|axis| place.at(axis)),
+            degrees: turn.map(|turn| Number::of(turn.degrees)).transpose()?.map(|degrees| place.at(degrees)),
+            translate: at(Part::Translation).map(|offset| vector(offset.truncate())).transpose()?,
+        }))
     };
-    (times.into_iter().map(keyframe).collect(), is_step)
+    Ok((times.into_iter().map(keyframe).collect::<Result<_, String>>()?, is_step))
 }

@@ -5,10 +5,15 @@ use serde_json::{Map, Value};
 
 use super::importer::Importer;
 use super::json::Primitive;
-use super::made::{Bending, MovingNodes, Skinning};
+use super::made::{Bending, MovingNodes, Skinning, WeightTrack};
 use super::primitive::accessor;
-use crate::load::deformation_file::influences_file;
-use crate::load::import::{FileReference, Keys, list, place_rows};
+use crate::load::deformation_file::DeformationRows;
+use crate::load::file::keyframes::InterpolationName;
+use crate::load::file::place_rows;
+use crate::load::file::reference::FileOr;
+use crate::load::file::shape::deformation::{DeformationEntry, JointEntry, WeightKeyEntry};
+use crate::load::file::value::{Exactly, Number};
+use crate::load::place::Place;
 use crate::scene::Mesh;
 use crate::scene::animation::{Deformation, Influences, Joint, MorphTarget};
 
@@ -104,31 +109,37 @@ impl Importer<'_> {
         Ok(influences)
     }
 
-    /// Keeps a mesh that is bent at frames: its file, and the key that bends it.
-    pub fn hold_bent(&mut self, name: &str, deformation: Deformation, bending: Bending) -> (FileReference, Keys) {
-        let file = self.scene.hold_bytes(&format!("{name}-deformation"), "json", influences_file(&deformation));
-        let mut keys = Keys::new().with("file", file);
-        if let Some(skinning) = bending.skinning {
-            let joint = |(map, node): (&DAffine3, &Option<String>)| {
-                Keys::new().with_some("node", node.as_deref()).with("matrix", list(place_rows(map)))
-            };
-            keys.set("joints", list(skinning.maps.iter().zip(&skinning.nodes).map(joint)));
-        }
-        if !deformation.targets.is_empty() {
-            keys.set("weights", list(deformation.targets.iter().map(|target| target.rest)));
-        }
-        if let Some(track) = bending.track {
-            let weights = |weights: &[f64]| {
-                let count = deformation.targets.len();
-                list(weights.iter().copied().chain(std::iter::repeat(0.0)).take(count))
-            };
-            let keyframe = |(time, values): &(f64, Vec<f64>)| Keys::new().with("time", *time).with("weights", weights(values));
-            keys.set("keyframes", list(track.keys.iter().map(keyframe)));
-            if track.is_step {
-                keys.set("interpolation", "step");
-            }
-        }
-        let rest = deformation.at_rest();
-        (self.scene.hold_bent_mesh(name, deformation.base, rest), keys)
+    /// The keys of what deforms a mesh at frames.
+    pub fn deformation_entry(
+        &self,
+        deformation: &Deformation,
+        bending: Bending,
+        place: &Place,
+    ) -> Result<DeformationEntry, String> {
+        let numbers = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(Number::of).collect::<Result<Vec<_>, _>>();
+        let joint = |(map, node): (&DAffine3, &Option<String>)| {
+            let matrix = Some(place.at(Exactly::of(place_rows(map))?));
+            Ok(JointEntry { node: node.clone().map(|name| place.at(name)), matrix })
+        };
+        let joints = |skinning: &Skinning| {
+            let joints = skinning.maps.iter().zip(&skinning.nodes).map(joint);
+            joints.collect::<Result<Vec<_>, String>>().map(|joints| place.at(joints))
+        };
+        let count = deformation.targets.len();
+        let keyframe = |(time, values): &(f64, Vec<f64>)| {
+            let weights = numbers(&mut values.iter().copied().chain(std::iter::repeat(0.0)).take(count))?;
+            Ok(place.at(WeightKeyEntry { frame: None, time: Some(Number::of(*time)?), weights }))
+        };
+        let keyframes = |track: &WeightTrack| {
+            track.keys.iter().map(keyframe).collect::<Result<Vec<_>, String>>().map(|keyframes| place.at(keyframes))
+        };
+        let rest = (count > 0).then(|| numbers(&mut deformation.targets.iter().map(|target| target.rest))).transpose()?;
+        Ok(DeformationEntry {
+            file: place.at(FileOr::InMemory(DeformationRows::of(deformation).into())),
+            joints: bending.skinning.map(joints).transpose()?,
+            weights: rest.map(|weights| place.at(weights)),
+            keyframes: bending.track.map(keyframes).transpose()?,
+            interpolation: bending.track.filter(|track| track.is_step).map(|_| place.at(InterpolationName::Step)),
+        })
     }
 }

@@ -11,8 +11,11 @@ use super::json::Root;
 use super::known::{EXTENSIONS, Unread, WITH_FALLBACK, find_unread};
 use super::made::{MadeMaterial, MadePrimitive, WeightTrack};
 use super::texture_role::{TextureRole, UvsOf};
+use crate::load::file::reference::FileOr;
 use crate::load::files::Files;
-use crate::load::import::{Description, FileReference, Place};
+use crate::load::image_file::EmbeddedFile;
+use crate::load::import::Description;
+use crate::load::place::{Origin, Place};
 use crate::load::printable::short_list;
 
 /// The properties that tell textures apart: index, role of the texels, placement, coordinates, and the texture by which
@@ -29,7 +32,7 @@ pub struct Importer<'a> {
     pub scene: Description,
     pub materials: HashMap<Option<usize>, MadeMaterial>,
     pub textures: HashMap<TextureKey, String>,
-    pub pictures: HashMap<usize, FileReference>,
+    pub pictures: HashMap<usize, FileOr<EmbeddedFile>>,
     /// Of primitives that nothing of a node bends, by mesh and place in it.
     pub meshes: HashMap<(usize, usize), MadePrimitive>,
     /// Of nodes whose morph targets count differently at frames.
@@ -46,7 +49,7 @@ pub struct Importer<'a> {
 
 impl Importer<'_> {
     pub fn place(&self, key: &str) -> Place {
-        Place { file: self.name.clone(), line: None, key: key.to_owned() }
+        Origin { file: self.name.clone(), line: None, key: key.to_owned() }.into()
     }
 
     pub fn drop(&mut self, what: impl Into<String>, key: &str, instead: &str) {

@@ -6,7 +6,10 @@ use glam::{DAffine3, DVec3};
 
 use super::importer::Importer;
 use super::json::{Light, Node};
-use crate::load::import::{Entry, Keys, world_direction};
+use crate::load::file::colour::Rgb;
+use crate::load::file::light::{LightEntry, directional, point, spot};
+use crate::load::file::value::{Checked, Exactly};
+use crate::load::import::world_direction;
 
 const NAME: &str = "KHR_lights_punctual";
 
@@ -34,9 +37,20 @@ impl Importer<'_> {
             self.drop("range of a light", &key, "its light reaches everywhere");
         }
         let direction = world_direction(&map, DVec3::NEG_Z).ok_or("its transform leaves no direction")?;
-        let keys = match light.r#type.as_str() {
-            "point" => Keys::of_type("point").with("position", map.translation).with("intensity", colour),
-            "directional" => Keys::of_type("directional").with("direction", direction).with("irradiance", colour),
+        let place = self.place(&key);
+        let position = Exactly::of(map.translation.to_array())?;
+        let (direction, strength) = (place.at(Exactly::of(direction.to_array())?), Rgb::of(colour)?);
+        let entry = match light.r#type.as_str() {
+            "point" => {
+                LightEntry::Point(point::Keys { position, intensity: strength, keyframes: None, interpolation: None, node: None })
+            }
+            "directional" => LightEntry::Directional(directional::Keys {
+                direction,
+                irradiance: strength,
+                keyframes: None,
+                interpolation: None,
+                node: None,
+            }),
             "spot" => {
                 let cone = light.spot.clone().unwrap_or_default();
                 let stated = [cone.inner_cone_angle.unwrap_or(0.0), cone.outer_cone_angle.unwrap_or(FRAC_PI_4)];
@@ -54,15 +68,26 @@ impl Importer<'_> {
                     );
                 }
                 let [inner, outer] = [inner, outer].map(f64::to_degrees);
-                let keys = Keys::of_type("spot").with("position", map.translation).with("direction", direction);
-                keys.with("intensity", colour).with("angle", outer).with("falloff", inner).with("curve", "square")
+                LightEntry::Spot(spot::Keys {
+                    position,
+                    direction,
+                    intensity: strength,
+                    angle: Checked::of(outer)?,
+                    falloff: Some(place.at(Checked::of(inner)?)),
+                    curve: Some(spot::CurveName::Square),
+                    texture: None,
+                    up: None,
+                    keyframes: None,
+                    interpolation: None,
+                    node: None,
+                })
             }
             other => {
                 self.drop(format!("light of type `{other}`"), &key, "it is left out");
                 return Ok(());
             }
         };
-        self.scene.lights.push(Entry { place: self.place(&key), keys });
+        self.scene.file.light.push(place.at(entry));
         Ok(())
     }
 }

@@ -1,10 +1,13 @@
 //! What materials, nodes and primitives became, and what bends meshes.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use glam::{DAffine2, DAffine3};
 
-use crate::load::import::{FileReference, Keys};
+use crate::load::file::shape::deformation::DeformationEntry;
+use crate::load::file::value::Located;
+use crate::scene::Mesh;
 
 /// Of a material of a primitive.
 #[derive(Debug, Clone)]
@@ -45,12 +48,11 @@ pub struct Form {
 /// What a primitive became.
 #[derive(Debug, Clone)]
 pub struct MadePrimitive {
-    pub file: FileReference,
+    pub mesh: Arc<Mesh>,
     pub material: String,
-    pub smooth: bool,
     pub triangles: u64,
-    /// `deformation`, of what is bent at frames.
-    pub deformation: Option<Keys>,
+    /// Of a mesh that is deformed at frames.
+    pub deformation: Option<Box<Located<DeformationEntry>>>,
 }
 
 /// How much the morph targets of a node count at times in seconds, each later than the one before.

@@ -9,7 +9,14 @@ use super::json::{Material, SpecularGlossiness, TextureInfo, extension};
 use super::lookup::{Lookup, Lookups};
 use super::made::{Coordinates, Form, MadeMaterial};
 use super::texture_role::{TextureRole, UvsOf};
-use crate::load::import::{Entry, Keys, Value};
+use crate::load::file::colour::{ChannelName, Rgb, Scalar};
+use crate::load::file::material::blend_weight::BlendWeightEntry;
+use crate::load::file::material::{MaterialEntry, diffuse, emissive, principled};
+use crate::load::file::reference::TextureName;
+use crate::load::file::value::{Checked, Fraction, Located, Number, Rule};
+use crate::load::import::Input;
+use crate::load::place::Place;
+use crate::scene::Channel;
 
 /// Index of refraction where nothing is said, and the largest that scene files have.
 const IOR: f64 = 1.5;
@@ -57,14 +64,12 @@ impl Importer<'_> {
     fn make_material(&mut self, material: &Material, name: &str, place: String, form: &Form) -> Result<MadeMaterial, String> {
         let lookups = Lookups::of(material)?;
         let glossy = extension(&material.extensions, GLOSSY)?;
-        let mut surface = Surface { importer: self, material, place, lookups, coordinates: None, form, glossy };
-        let keys = surface.keys()?;
-        let coordinates = surface.coordinates;
-        let place = surface.place;
+        let mut surface = Surface { importer: self, material, key: place, lookups, coordinates: None, form, glossy };
+        let mut entry = surface.entry()?;
+        let (coordinates, place) = (surface.coordinates, surface.place());
         let name = self.scene.free_material_name(name);
-        let mut named = Keys::new().with("name", name.as_str());
-        named.0.extend(keys.0);
-        self.scene.materials.push(Entry { place: self.place(&place), keys: named });
+        *entry.common_mut().name = place.at(name.clone());
+        self.scene.file.material.push(entry);
         Ok(MadeMaterial { name, coordinates })
     }
 }
@@ -73,7 +78,8 @@ impl Importer<'_> {
 struct Surface<'s, 'i> {
     importer: &'s mut Importer<'i>,
     material: &'s Material,
-    place: String,
+    /// The material's name in the file.
+    key: String,
     lookups: Lookups,
     coordinates: Option<Coordinates>,
     form: &'s Form,
@@ -81,13 +87,37 @@ struct Surface<'s, 'i> {
     glossy: Option<SpecularGlossiness>,
 }
 
-/// The reflectance of a material's base, in the terms of scene files.
+/// A share of something: a factor, times a channel of a texture.
+#[derive(Debug, Clone, PartialEq)]
+struct Share {
+    map: Option<(String, Channel)>,
+    factor: f64,
+}
+
+impl Share {
+    fn constant(factor: f64) -> Self {
+        Self { map: None, factor }
+    }
+
+    fn is(&self, number: f64) -> bool {
+        self.map.is_none() && self.factor == number
+    }
+
+    fn scalar<R: Rule>(&self, place: &Place) -> Result<Scalar<R>, String> {
+        match &self.map {
+            Some((name, channel)) => Scalar::of_texture(place.at(TextureName(name.clone())), Some(*channel), self.factor),
+            None => Scalar::constant(self.factor),
+        }
+    }
+}
+
+/// The reflectance of a material's base.
 struct BaseLayer {
-    metallic: Value,
-    roughness: Value,
+    metallic: Share,
+    roughness: Share,
     ior: f64,
-    specular: Value,
-    specular_color: Value,
+    specular: Share,
+    specular_color: Input,
 }
 
 impl Surface<'_, '_> {
@@ -96,12 +126,16 @@ impl Surface<'_, '_> {
         value.unwrap_or(default)
     }
 
+    fn place(&self) -> Place {
+        self.importer.place(&self.key)
+    }
+
     fn approximate(&mut self, what: &str, instead: &str) {
-        self.importer.scene.report.approximate(what, self.importer.place(&self.place).to_string(), instead);
+        self.importer.scene.report.approximate(what, self.place().to_string(), instead);
     }
 
     fn drop(&mut self, what: &str, instead: &str) {
-        self.importer.scene.report.drop(what, self.importer.place(&self.place).to_string(), instead);
+        self.importer.scene.report.drop(what, self.place().to_string(), instead);
     }
 
     /// A number within limits, reported where it is beyond them.
@@ -132,29 +166,31 @@ impl Surface<'_, '_> {
         (factor.unwrap_or([1.0; 4]), texture.clone())
     }
 
-    fn keys(&mut self) -> Result<Keys, String> {
+    fn entry(&mut self) -> Result<MaterialEntry, String> {
         let (factor, texture) = self.base_colour();
         let key = if self.glossy.is_some() { "diffuseFactor" } else { "baseColorFactor" };
         let colour = self.colour_within(DVec3::new(factor[0], factor[1], factor[2]), [0.0, 1.0], key);
         let alpha = self.within(factor[3], [0.0, 1.0], key);
         let base = match &texture {
-            Some(info) => {
-                let name = self.base_texture(info)?;
-                reference(&name, colour)
-            }
-            None => self.form.paint.as_ref().map_or_else(|| constant(colour), |paint| reference(&paint.texture, colour)),
+            Some(info) => Input::Texture(self.base_texture(info)?, colour),
+            None => match &self.form.paint {
+                Some(paint) => Input::Texture(paint.texture.clone(), colour),
+                None => Input::Constant(colour),
+            },
         };
         self.report_extensions();
-        let mut keys = if self.material.extensions.contains_key("KHR_materials_unlit") {
+        let place = self.place();
+        let mut entry = if self.material.extensions.contains_key("KHR_materials_unlit") {
             self.approximate("KHR_materials_unlit", "the surface gives light of its colour, which falls on others too");
-            Keys::of_type("emissive").with("radiance", base.clone()).with("two_sided", true)
+            let (radiance, two_sided) = (base.colour(&place)?, Some(place.at(true)));
+            MaterialEntry::Emissive(emissive::Keys { radiance, two_sided, ..Default::default() })
         } else {
-            self.lit(base.clone())?
+            self.lit(&base)?
         };
-        self.normal_map(&mut keys)?;
-        self.emission(&mut keys)?;
-        let keys = self.see_through(keys, alpha)?;
-        Ok(self.culled(keys))
+        self.normal_map(&mut entry)?;
+        self.emission(&mut entry)?;
+        let entry = self.see_through(entry, alpha)?;
+        Ok(self.culled(entry))
     }
 
     /// The reflectance of the base: metal and dielectric, or specular and glossiness, whose colour of reflection is that along the normal.
@@ -164,19 +200,20 @@ impl Surface<'_, '_> {
             let colour = self.colour_within(colour, [0.0, 1.0], "specularFactor") / normal_reflectance(LARGEST_IOR);
             let glossiness = self.within(glossy.glossiness_factor.unwrap_or(1.0), [0.0, 1.0], "glossinessFactor");
             let (specular_color, roughness) = match glossy.specular_glossiness_texture {
-                None => (constant(colour), Value::Number(1.0 - glossiness)),
+                None => (Input::Constant(colour), Share::constant(1.0 - glossiness)),
                 Some(info) => {
                     let role = TextureRole::OfGlossiness(glossiness.to_bits());
                     let roughness = self.lookup(&info, role, "glossiness", None)?;
-                    (self.texture(&info, TextureRole::Colour, colour, "specular")?, of_channel(Some(&roughness), "r", 1.0))
+                    let roughness = Share { map: Some((roughness, Channel::R)), factor: 1.0 };
+                    (self.texture(&info, TextureRole::Colour, colour, "specular")?, roughness)
                 }
             };
-            let [metallic, specular] = [0.0, 1.0].map(Value::Number);
+            let [metallic, specular] = [0.0, 1.0].map(Share::constant);
             return Ok(BaseLayer { metallic, roughness, ior: LARGEST_IOR, specular, specular_color });
         }
         let pbr = self.material.pbr_metallic_roughness.clone();
         let map = match &pbr.metallic_roughness_texture {
-            Some(info) => self.texture_name(info, TextureRole::Numbers, "metallic and roughness")?,
+            Some(info) => Some(self.lookup(info, TextureRole::Numbers, "metallic and roughness", None)?),
             None => None,
         };
         let metallic = self.within(pbr.metallic_factor.unwrap_or(1.0), [0.0, 1.0], "metallicFactor");
@@ -185,10 +222,10 @@ impl Surface<'_, '_> {
         let tint = self.tint(SPECULAR, "specularColorFactor", DVec3::ONE, [f64::MAX, reflected], "specularColorTexture")?;
         Ok(BaseLayer {
             // Green of the texture is roughness, and blue is metallic.
-            metallic: of_channel(map.as_deref(), "b", metallic),
-            roughness: of_channel(map.as_deref(), "g", roughness),
+            metallic: Share { map: map.clone().map(|map| (map, Channel::B)), factor: metallic },
+            roughness: Share { map: map.map(|map| (map, Channel::G)), factor: roughness },
             ior,
-            specular: self.factor(SPECULAR, "specularFactor", 1.0, "specularTexture", "a")?,
+            specular: self.factor(SPECULAR, "specularFactor", 1.0, "specularTexture", Channel::A)?,
             specular_color: tint,
         })
     }
@@ -208,79 +245,82 @@ impl Surface<'_, '_> {
     }
 
     /// The scattering material: the base with its extensions.
-    fn lit(&mut self, base: Value) -> Result<Keys, String> {
+    fn lit(&mut self, base: &Input) -> Result<MaterialEntry, String> {
         const TRANSMISSION: &str = "KHR_materials_transmission";
         const CLEARCOAT: &str = "KHR_materials_clearcoat";
         const ANISOTROPY: &str = "KHR_materials_anisotropy";
         const SHEEN: &str = "KHR_materials_sheen";
         let BaseLayer { metallic, roughness, ior, specular, specular_color } = self.base_layer()?;
-        let transmission = self.factor(TRANSMISSION, "transmissionFactor", 0.0, "transmissionTexture", "r")?;
-        let clearcoat = self.factor(CLEARCOAT, "clearcoatFactor", 0.0, "clearcoatTexture", "r")?;
+        let transmission = self.factor(TRANSMISSION, "transmissionFactor", 0.0, "transmissionTexture", Channel::R)?;
+        let clearcoat = self.factor(CLEARCOAT, "clearcoatFactor", 0.0, "clearcoatTexture", Channel::R)?;
         let sheen = self.tint(SHEEN, "sheenColorFactor", DVec3::ZERO, [1.0, 1.0], "sheenColorTexture")?;
-        let [none, one] = [0.0, 1.0].map(Value::Number);
-        if [&metallic, &transmission, &specular, &clearcoat, &sheen].into_iter().all(|share| *share == none) {
-            return Ok(Keys::of_type("diffuse").with("reflectance", base));
+        let place = self.place();
+        let has_sheen = sheen != Input::grey(0.0);
+        if !has_sheen && [&metallic, &transmission, &specular, &clearcoat].into_iter().all(|share| share.is(0.0)) {
+            let reflectance = base.colour(&place)?;
+            return Ok(MaterialEntry::Diffuse(diffuse::Keys { reflectance, ..Default::default() }));
         }
-        let mut keys =
-            Keys::of_type("principled").with("base_color", base).with("metallic", metallic).with("roughness", roughness);
-        keys.set("ior", ior);
-        if specular != one {
-            keys.set("specular", specular);
+        let mut keys = principled::Keys {
+            base_color: Some(base.colour(&place)?),
+            metallic: Some(metallic.scalar(&place)?),
+            roughness: Some(roughness.scalar(&place)?),
+            ior: Some(Checked::of(ior)?),
+            ..Default::default()
+        };
+        if !specular.is(1.0) {
+            keys.specular = Some(specular.scalar(&place)?);
         }
-        if specular_color != one {
-            keys.set("specular_color", specular_color);
+        if specular_color != Input::grey(1.0) {
+            keys.specular_color = Some(specular_color.colour(&place)?);
         }
-        if transmission != none {
-            keys.set("transmission", transmission);
+        if !transmission.is(0.0) {
+            keys.transmission = Some(transmission.scalar(&place)?);
             // What has no volume is a wall without thickness.
             if self.has_volume() {
-                self.attenuation(&mut keys);
+                self.attenuation(&mut keys)?;
             } else {
-                keys.set("thin", true);
+                keys.thin = Some(place.at(true));
             }
         }
-        if sheen != none {
-            let roughness = self.factor(SHEEN, "sheenRoughnessFactor", 0.0, "sheenRoughnessTexture", "a")?;
-            keys.set("sheen_color", sheen);
-            keys.set("sheen_roughness", roughness);
+        if has_sheen {
+            let roughness = self.factor(SHEEN, "sheenRoughnessFactor", 0.0, "sheenRoughnessTexture", Channel::A)?;
+            keys.sheen_color = Some(Box::new(sheen.colour(&place)?));
+            keys.sheen_roughness = Some(place.at(roughness.scalar(&place)?));
         }
-        if clearcoat != none {
-            let roughness = self.factor(CLEARCOAT, "clearcoatRoughnessFactor", 0.0, "clearcoatRoughnessTexture", "g")?;
-            keys.set("clearcoat", clearcoat);
-            keys.set("clearcoat_roughness", roughness);
-            if let Some(info) = self.texture_of(CLEARCOAT, "clearcoatNormalTexture")?
-                && let Some(name) = self.texture_name(&info, TextureRole::Normals, "clearcoatNormalTexture")?
-            {
-                keys.set("coat_normal_map", name);
-                if let Some(scale) = info.scale.filter(|scale| *scale != 1.0) {
-                    keys.set("coat_normal_scale", scale);
-                }
+        if !clearcoat.is(0.0) {
+            let roughness = self.factor(CLEARCOAT, "clearcoatRoughnessFactor", 0.0, "clearcoatRoughnessTexture", Channel::G)?;
+            keys.clearcoat = Some(clearcoat.scalar(&place)?);
+            keys.clearcoat_roughness = Some(place.at(roughness.scalar(&place)?));
+            if let Some(info) = self.texture_of(CLEARCOAT, "clearcoatNormalTexture")? {
+                let name = self.lookup(&info, TextureRole::Normals, "clearcoatNormalTexture", None)?;
+                keys.coat_normal_map = Some(place.at(TextureName(name)));
+                keys.coat_normal_scale = normal_scale(&info, &place)?;
             }
         }
-        let anisotropy = self.factor(ANISOTROPY, "anisotropyStrength", 0.0, "anisotropyTexture", "b")?;
-        if anisotropy != none {
-            keys.set("anisotropy", anisotropy);
-            if let Some(info) = self.texture_of(ANISOTROPY, "anisotropyTexture")?
-                && let Some(name) = self.texture_name(&info, TextureRole::Numbers, "anisotropyTexture")?
-            {
-                keys.set("anisotropy_direction", name);
+        let anisotropy = self.factor(ANISOTROPY, "anisotropyStrength", 0.0, "anisotropyTexture", Channel::B)?;
+        if !anisotropy.is(0.0) {
+            keys.anisotropy = Some(Box::new(anisotropy.scalar(&place)?));
+            if let Some(info) = self.texture_of(ANISOTROPY, "anisotropyTexture")? {
+                let name = self.lookup(&info, TextureRole::Numbers, "anisotropyTexture", None)?;
+                keys.anisotropy_direction = Some(place.at(TextureName(name)));
             }
-            keys.set("anisotropy_rotation", self.number(ANISOTROPY, "anisotropyRotation", 0.0).to_degrees());
+            let degrees = self.number(ANISOTROPY, "anisotropyRotation", 0.0).to_degrees();
+            keys.anisotropy_rotation = Some(place.at(Number::of(degrees)?));
             // Directions follow texture coordinates.
             self.coordinates.get_or_insert(Coordinates { set: 0, map: DAffine2::IDENTITY, second: None });
         }
-        Ok(keys)
+        Ok(MaterialEntry::Principled(keys))
     }
 
     /// A factor of an extension, times a channel of its texture.
-    fn factor(&mut self, of: &str, key: &str, default: f64, texture: &str, channel: &str) -> Result<Value, String> {
+    fn factor(&mut self, of: &str, key: &str, default: f64, texture: &str, channel: Channel) -> Result<Share, String> {
         let factor = self.number(of, key, default);
         let factor = self.within(factor, [0.0, 1.0], key);
         let map = match self.texture_of(of, texture)? {
-            Some(info) if factor > 0.0 => self.texture_name(&info, TextureRole::Numbers, texture)?,
+            Some(info) if factor > 0.0 => Some((self.lookup(&info, TextureRole::Numbers, texture, None)?, channel)),
             _ => None,
         };
-        Ok(of_channel(map.as_deref(), channel, factor))
+        Ok(Share { map, factor })
     }
 
     /// A texture of an extension.
@@ -292,12 +332,12 @@ impl Surface<'_, '_> {
     }
 
     /// A colour of an extension, at most so much, times a factor and its texture.
-    fn tint(&mut self, of: &str, key: &str, default: DVec3, [most, times]: [f64; 2], texture: &str) -> Result<Value, String> {
+    fn tint(&mut self, of: &str, key: &str, default: DVec3, [most, times]: [f64; 2], texture: &str) -> Result<Input, String> {
         let colour = self.colour(of, key).unwrap_or(default);
         let factor = self.colour_within(colour, [0.0, most], key) * times;
         match self.texture_of(of, texture)? {
             Some(info) if factor != DVec3::ZERO => self.texture(&info, TextureRole::Colour, factor, texture),
-            _ => Ok(constant(factor)),
+            _ => Ok(Input::Constant(factor)),
         }
     }
 
@@ -315,7 +355,7 @@ impl Surface<'_, '_> {
     }
 
     /// What takes light within a volume. Without a distance, or white, nothing does.
-    fn attenuation(&mut self, keys: &mut Keys) {
+    fn attenuation(&mut self, keys: &mut principled::Keys) -> Result<(), String> {
         let distance = self.number(VOLUME, "attenuationDistance", f64::INFINITY);
         let colour = self.colour(VOLUME, "attenuationColor").unwrap_or(DVec3::ONE);
         let colour = self.colour_within(colour, [0.0, 1.0], "attenuationColor");
@@ -323,23 +363,23 @@ impl Surface<'_, '_> {
             self.approximate("attenuationDistance not above 0", "the volume takes no light");
         }
         if distance.is_finite() && distance > 0.0 && colour != DVec3::ONE {
-            keys.set("attenuation_color", constant(colour));
-            keys.set("attenuation_distance", distance);
-        }
-    }
-
-    fn normal_map(&mut self, keys: &mut Keys) -> Result<(), String> {
-        let Some(info) = self.material.normal_texture.clone() else { return Ok(()) };
-        if let Some(name) = self.texture_name(&info, TextureRole::Normals, "normal")? {
-            keys.set("normal_map", name);
-            if let Some(scale) = info.scale.filter(|scale| *scale != 1.0) {
-                keys.set("normal_scale", scale);
-            }
+            let place = self.place();
+            keys.attenuation_color = Some(place.at(Rgb::<Fraction>::of(colour)?));
+            keys.attenuation_distance = Some(place.at(Checked::of(distance)?));
         }
         Ok(())
     }
 
-    fn emission(&mut self, keys: &mut Keys) -> Result<(), String> {
+    fn normal_map(&mut self, entry: &mut MaterialEntry) -> Result<(), String> {
+        let Some(info) = self.material.normal_texture.clone() else { return Ok(()) };
+        let (name, place) = (self.lookup(&info, TextureRole::Normals, "normal", None)?, self.place());
+        let common = entry.common_mut();
+        *common.normal_map = Some(place.at(TextureName(name)));
+        *common.normal_scale = normal_scale(&info, &place)?;
+        Ok(())
+    }
+
+    fn emission(&mut self, entry: &mut MaterialEntry) -> Result<(), String> {
         let strength = self.number("KHR_materials_emissive_strength", "emissiveStrength", 1.0);
         let strength = self.within(strength, [0.0, f64::MAX], "emissiveStrength");
         // Above 1 it is as bright as it says.
@@ -349,16 +389,15 @@ impl Surface<'_, '_> {
         }
         let emission = match self.material.emissive_texture.clone() {
             Some(info) => self.texture(&info, TextureRole::Colour, factor, "emission")?,
-            None => constant(factor),
+            None => Input::Constant(factor),
         };
-        if keys.text("type") == Some("emissive") {
+        if matches!(entry, MaterialEntry::Emissive(_)) {
             self.approximate("emission of an unlit material", "its colour alone counts");
             return Ok(());
         }
-        keys.set("emission", emission);
-        if self.material.double_sided {
-            keys.set("emission_two_sided", true);
-        }
+        let (place, common) = (self.place(), entry.common_mut());
+        *common.emission = Some(place.at(emission.colour(&place)?));
+        *common.emission_two_sided = self.material.double_sided.then(|| place.at(true));
         Ok(())
     }
 
@@ -379,26 +418,18 @@ impl Surface<'_, '_> {
         }
     }
 
-    fn extra(&mut self, what: &str, keys: Keys) -> Value {
+    /// Adds a material beside this one; its name.
+    fn extra(&mut self, what: &str, mut entry: MaterialEntry) -> String {
         let name = format!("{}, {what}", self.material.name.as_deref().unwrap_or("(unnamed)"));
         let name = self.importer.scene.free_material_name(&name);
-        let mut named = Keys::new().with("name", name.as_str());
-        named.0.extend(keys.0);
-        let place = self.importer.place(&self.place);
-        self.importer.scene.materials.push(Entry { place, keys: named });
-        Value::Text(name)
+        *entry.common_mut().name = self.place().at(name.clone());
+        self.importer.scene.file.material.push(entry);
+        name
     }
 
-    /// The name of a texture of numbers.
-    fn texture_name(&mut self, info: &TextureInfo, role: TextureRole, what: &str) -> Result<Option<String>, String> {
-        let Value::Table(keys) = self.texture(info, role, DVec3::ONE, what)? else { return Ok(None) };
-        Ok(keys.text("texture").map(str::to_owned))
-    }
-
-    /// `{ texture = … }`, or a constant where there is no picture.
-    fn texture(&mut self, info: &TextureInfo, role: TextureRole, factor: DVec3, what: &str) -> Result<Value, String> {
-        let name = self.lookup(info, role, what, None)?;
-        Ok(reference(&name, factor))
+    /// A texture times a factor.
+    fn texture(&mut self, info: &TextureInfo, role: TextureRole, factor: DVec3, what: &str) -> Result<Input, String> {
+        Ok(Input::Texture(self.lookup(info, role, what, None)?, factor))
     }
 
     /// The base colour's texture, multiplied by the vertex colours; its name.
@@ -438,34 +469,13 @@ fn normal_reflectance(ior: f64) -> f64 {
     ((ior - 1.0) / (ior + 1.0)).powi(2)
 }
 
-/// A texture of colours, times a factor.
-fn reference(texture: &str, factor: DVec3) -> Value {
-    let factor = (factor != DVec3::ONE).then(|| constant(factor));
-    Value::Table(Keys::new().with("texture", texture).with_some("factor", factor))
+/// By how much a normal map bends, where it is not as its texels say.
+fn normal_scale(info: &TextureInfo, place: &Place) -> Result<Option<Located<Number>>, String> {
+    let scale = info.scale.filter(|scale| *scale != 1.0);
+    scale.map(|scale| Number::of(scale).map(|scale| place.at(scale))).transpose()
 }
 
-/// A number for grey.
-fn constant(colour: DVec3) -> Value {
-    if colour.min_element() == colour.max_element() { Value::Number(colour.x) } else { colour.into() }
-}
-
-/// A channel of a texture, times a factor.
-fn channel_of(name: &str, channel: &str, factor: f64) -> Keys {
-    let keys = Keys::new().with("texture", name).with("channel", channel);
-    keys.with_some("factor", (factor != 1.0).then_some(factor))
-}
-
-/// A blend's weight by a channel.
-fn channel_weight(name: &str, channel: &str, factor: f64) -> Keys {
-    let mut keys = Keys::of_type("texture");
-    keys.0.extend(channel_of(name, channel, factor).0);
-    keys
-}
-
-/// A factor, times a channel where there is a texture.
-fn of_channel(texture: Option<&str>, channel: &str, factor: f64) -> Value {
-    match texture {
-        Some(name) => Value::Table(channel_of(name, channel, factor)),
-        None => Value::Number(factor),
-    }
+/// A blend's weight by the alpha of a texture.
+fn alpha_weight(name: &str, factor: f64, place: &Place) -> Result<BlendWeightEntry, String> {
+    BlendWeightEntry::channel(place.at(TextureName(name.to_owned())), ChannelName::A, factor)
 }

@@ -65,7 +65,7 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
         root: &root,
         buffers,
         // Up to 1, emission is what shows in the dark; viewers light such models all the same.
-        scene: Description::with_glow(1.0),
+        scene: Description::with_least_radiance(1.0),
         materials: HashMap::new(),
         textures: HashMap::new(),
         pictures: HashMap::new(),
@@ -86,7 +86,7 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
     importer.scene(camera).map_err(refuse)?;
     importer.report_clipping();
     let scene = importer.scene;
-    if !root.meshes.is_empty() && scene.shapes.is_empty() && scene.instances.is_empty() {
+    if !root.meshes.is_empty() && scene.file.shape.is_empty() && scene.file.instance.is_empty() {
         return Err(refuse("there is nothing to render in the scene: it shows none of its meshes' faces".to_owned()));
     }
     Ok(scene)

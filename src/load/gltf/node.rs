@@ -1,7 +1,9 @@
 //! Nodes: what stands where.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::num::NonZeroU32;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 
@@ -9,8 +11,12 @@ use super::clipping::Clipping;
 use super::importer::Importer;
 use super::json::{Instances, Node, extension};
 use super::made::{Bending, MadePrimitive, MovingNodes};
-use crate::load::import::{Entry, Keys, camera_keys, matrix_value, pays_as_instances};
+use crate::load::file::shape::{ShapeEntry, TransformEntry, mesh};
+use crate::load::file::syntax::ProjectionName;
+use crate::load::file::value::{Checked, Exactly};
+use crate::load::import::{camera_at, pays_as_instances};
 use crate::load::memory;
+use crate::load::place::Place;
 use crate::load::printable::short_list;
 use crate::scene::Mesh;
 
@@ -92,17 +98,21 @@ impl Importer<'_> {
                 self.has_mesh_of_others(index, &moving) && node.mesh.is_some_and(|mesh| stored_once.contains(&mesh));
             if let Some(mesh) = node.mesh.filter(|_| !is_instanced) {
                 for instance in self.instances(node).map_err(of_node)? {
-                    let first = self.scene.shapes.len();
+                    let first = self.scene.file.shape.len();
                     self.mesh_node(index, mesh, map * instance, &world, &moving).map_err(of_node)?;
                     if let Some(name) = name.filter(|_| node.skin.is_none()) {
-                        self.scene.shapes[first..].iter_mut().for_each(|shape| shape.keys.set("node", name.as_str()));
+                        let shapes = self.scene.file.shape[first..].iter_mut();
+                        shapes.for_each(|shape| *shape.value.common_mut().node = Some(shape.place.at(name.clone())));
                     }
                 }
             }
-            let first = self.scene.lights.len();
+            let first = self.scene.file.light.len();
             self.light(node, map, index).map_err(of_node)?;
             if let Some(name) = name {
-                self.scene.lights[first..].iter_mut().for_each(|light| light.keys.set("node", name.as_str()));
+                for light in &mut self.scene.file.light[first..] {
+                    let place = light.place.clone();
+                    light.value.node_mut().into_iter().for_each(|node| *node = Some(place.at(name.clone())));
+                }
             }
         }
         Ok(())
@@ -127,7 +137,7 @@ impl Importer<'_> {
                 return Ok(false);
             }
             triangles += made.triangles;
-            shapes.push(Entry { place: place.clone(), keys: mesh_keys(made) });
+            shapes.push(place.at(mesh_entry(made, &place)));
         }
         if !pays_as_instances(copies.len(), triangles) {
             return Ok(false);
@@ -138,7 +148,7 @@ impl Importer<'_> {
         let places: Vec<DAffine3> = copies.iter().filter(is_whole).map(|placed| placed.map).collect();
         if !places.is_empty() {
             self.triangles += triangles;
-            self.scene.add_instances(&name, &place, shapes, &places);
+            self.scene.add_instances(&name, &place, shapes, &places)?;
         }
         Ok(true)
     }
@@ -202,8 +212,8 @@ impl Importer<'_> {
         };
         let Some(placed) = chosen.copied() else { return Ok(()) };
         self.camera(placed).map_err(|message| format!("nodes[{}]: {message}", placed.node))?;
-        if let (Some(camera), Some(name)) = (&mut self.scene.camera, moving.get(&placed.node)) {
-            camera.keys.set("node", name.as_str());
+        if let (Some(camera), Some(name)) = (&mut self.scene.file.camera, moving.get(&placed.node)) {
+            camera.node = Some(camera.look_at.place.at(name.clone()));
         }
         Ok(())
     }
@@ -216,7 +226,8 @@ impl Importer<'_> {
         if map.matrix3.determinant() < 0.0 {
             self.drop("mirroring transform of a camera", &format!("nodes[{node}]"), "the picture is not mirrored");
         }
-        let mut keys = camera_keys(map.translation, forward, up, 1.0);
+        let place = self.place(&format!("cameras[{index}]"));
+        let mut keys = camera_at(map.translation, map.translation + forward * 1.0, up, &place)?;
         let aspect = match (&camera.perspective, &camera.orthographic) {
             (Some(perspective), _) => {
                 let degrees = perspective.yfov.to_degrees();
@@ -230,15 +241,16 @@ impl Importer<'_> {
                         "the nearest possible one is taken",
                     );
                 }
-                keys.set("vfov", degrees.clamp(*FIELDS_OF_VIEW.start(), *FIELDS_OF_VIEW.end()));
+                let possible = degrees.clamp(*FIELDS_OF_VIEW.start(), *FIELDS_OF_VIEW.end());
+                keys.vfov = Some(place.at(Checked::of(possible)?));
                 perspective.aspect_ratio
             }
             (None, Some(window)) => {
                 if !(window.ymag.is_finite() && window.ymag != 0.0 && window.xmag.is_finite() && window.xmag != 0.0) {
                     return Err(format!("cameras[{index}]: its window has no size"));
                 }
-                keys.set("projection", "orthographic");
-                keys.set("height", 2.0 * window.ymag.abs());
+                keys.projection = Some(place.at(ProjectionName::Orthographic));
+                keys.height = Some(place.at(Checked::of(2.0 * window.ymag.abs())?));
                 if window.ymag < 0.0 || window.xmag < 0.0 {
                     self.approximate("window of a camera below 0", &format!("cameras[{index}]"), "the picture is not mirrored");
                 }
@@ -251,11 +263,12 @@ impl Importer<'_> {
             self.approximate("aspect of a camera", &format!("cameras[{index}]"), "the picture is as large as without it");
         }
         if let Some(aspect) = possible {
-            let size = [LONGER_SIDE * aspect.min(1.0), LONGER_SIDE / aspect.max(1.0)].map(|side| side.round().max(1.0) as i64);
-            self.scene.film.set("size", crate::load::import::list(size));
+            let size = [LONGER_SIDE * aspect.min(1.0), LONGER_SIDE / aspect.max(1.0)];
+            let size = size.map(|side| NonZeroU32::new(side.round() as u32).unwrap_or(NonZeroU32::MIN));
+            self.scene.file.film.size = Some(Exactly(size));
         }
         self.clipping = Some(Clipping::of(&camera, index, (map.translation, forward, up)));
-        self.scene.camera = Some(Entry { place: self.place(&format!("cameras[{index}]")), keys });
+        self.scene.file.camera = Some(keys);
         Ok(())
     }
 
@@ -318,18 +331,19 @@ impl Importer<'_> {
             self.triangles += made.triangles;
             let needed = self.triangles * TRIANGLE_BYTES;
             let available = memory::available();
-            if self.triangles > 1 << 20 && needed > available || self.scene.shapes.len() >= MOST_SHAPES {
+            if self.triangles > 1 << 20 && needed > available || self.scene.file.shape.len() >= MOST_SHAPES {
                 return Err(format!(
                     "the scene does not fit: up to here it has {} triangles in {} shapes, copies counted, which take about {} MiB; {} MiB are free",
                     self.triangles,
-                    self.scene.shapes.len(),
+                    self.scene.file.shape.len(),
                     needed >> 20,
                     available >> 20
                 ));
             }
-            let keys = mesh_keys(made).with_some("transform", matrix_value(&map));
             let place = self.place(&format!("nodes[{index}]"));
-            self.scene.shapes.push(Entry { place, keys });
+            let mut shape = mesh_entry(made, &place);
+            *shape.common_mut().transform = TransformEntry::of_map(&map, &place)?;
+            self.scene.file.shape.push(place.at(shape));
         }
         Ok(())
     }
@@ -343,7 +357,7 @@ impl Importer<'_> {
             let of_primitive = |message: String| format!("meshes[{mesh}].primitives[{primitive}]: {message}");
             let Some(made) = self.primitive(mesh, primitive, Bending::default()).map_err(of_primitive)? else { continue };
             let place = self.place(&format!("nodes[{index}]"));
-            let mut flat = self.scene.mesh(&made.file).map(|mesh| Mesh::clone(mesh)).unwrap_or_default();
+            let mut flat = Mesh::clone(&made.mesh);
             flat.positions.iter_mut().for_each(|at| *at = map.transform_point3(at.as_dvec3()).as_vec3());
             flat.normals.clear();
             flat.smooth = false;
@@ -353,9 +367,8 @@ impl Importer<'_> {
                 continue;
             }
             self.triangles += flat.faces.len() as u64;
-            let file = self.scene.hold_mesh("flat", flat);
-            let keys = mesh_keys(MadePrimitive { file, smooth: false, deformation: None, ..made });
-            self.scene.shapes.push(Entry { place, keys });
+            let shape = mesh_entry(MadePrimitive { mesh: Arc::new(flat), deformation: None, ..made }, &place);
+            self.scene.file.shape.push(place.at(shape));
         }
         Ok(())
     }
@@ -367,9 +380,8 @@ fn is_hidden(node: &Node) -> bool {
     visibility.and_then(serde_json::Value::as_bool) == Some(false)
 }
 
-fn mesh_keys(made: MadePrimitive) -> Keys {
-    let keys = Keys::of_type("mesh").with("file", made.file).with("smooth", made.smooth).with("material", made.material);
-    keys.with_some("deformation", made.deformation)
+fn mesh_entry(MadePrimitive { mesh, material, deformation, .. }: MadePrimitive, place: &Place) -> ShapeEntry {
+    ShapeEntry::Mesh(mesh::Keys { material: Some(place.at(material)), deformation, ..mesh::Keys::of(mesh, place) })
 }
 
 /// The map of a node about its parent.

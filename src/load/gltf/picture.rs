@@ -2,15 +2,20 @@
 
 use std::path::Path;
 
+use glam::DVec3;
+
 use super::buffers::{file_of, read_uri};
 use super::importer::Importer;
 use super::json::{Image, Texture};
 use super::lookup::Placement;
 use super::texture_role::{TextureRole, UvsOf};
 use crate::load::error::show;
+use crate::load::file::colour::Rgb;
+use crate::load::file::reference::{FileOr, TextureName};
+use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
+use crate::load::file::value::{Exactly, Number};
 use crate::load::files::MOST_MODEL_BYTES;
-use crate::load::image_file::{inverted_alpha, one_texel};
-use crate::load::import::{Entry, FileReference, HeldContent, Keys, list};
+use crate::load::image_file::{EmbeddedFile, inverted_alpha, one_texel};
 
 const REPEAT: u64 = 10_497;
 const CLAMP: u64 = 33_071;
@@ -68,42 +73,31 @@ impl Importer<'_> {
             Ok((file, image.name.filter(|name| !name.is_empty()).unwrap_or_else(|| format!("image {source}"))))
         });
         let stand_in = stand_in(role);
-        let mut keys = Keys::of_type("image");
-        keys.set("color_space", if role == TextureRole::Colour { "srgb" } else { "linear" });
-        let wanted = match found {
-            Ok((file, wanted)) => {
-                keys.set("file", file);
-                keys.set("fallback", list(stand_in));
-                wanted
-            }
+        let at = self.place(&place);
+        let (file, fallback, wanted) = match found {
+            Ok((file, wanted)) => (file, Some(Rgb::of(DVec3::from(stand_in))?), wanted),
             Err(reason) => {
                 self.approximate("picture that cannot be read", &place, &format!("the colour {stand_in:?}: {reason}"));
                 self.scene.substitutes.push(format!("{place}: {reason}; the colour {stand_in:?} stands for it"));
-                keys.set("file", self.scene.hold_bytes("stand-in", "png", one_texel(stand_in)?));
-                format!("texture {index}")
+                (embedded("stand-in.png".to_owned(), one_texel(stand_in)?), None, format!("texture {index}"))
             }
         };
         let name = self.scene.free_texture_name(&wanted);
+        let mut entry = ImageEntry::of_file(at.at(name.clone()), at.at(file));
+        entry.fallback = fallback;
+        entry.color_space = Some(if role == TextureRole::Colour { ColorSpaceEntry::Srgb } else { ColorSpaceEntry::Linear });
         if let Some(sampler) = texture.sampler {
-            self.sampler(sampler, &mut keys, &place)?;
+            self.sampler(sampler, &mut entry, &place)?;
         }
         if let Some(Placement { scale, rotation_degrees, offset }) = placement {
-            keys.set("scale", scale);
-            keys.set("rotation", rotation_degrees);
-            keys.set("offset", offset);
+            entry.scale = Some(Exactly::of(scale)?);
+            entry.rotation = Some(Number::of(rotation_degrees)?);
+            entry.offset = Some(Exactly::of(offset)?);
         }
-        if by != UvsOf::First {
-            keys.set("second_uvs", true);
-        }
-        if by == UvsOf::Framed && role == TextureRole::Normals {
-            keys.set("bends_by_first_uvs", true);
-        }
-        if let Some(times) = times {
-            keys.set("times", times);
-        }
-        let mut named = Keys::new().with("name", name.as_str());
-        named.0.extend(keys.0);
-        self.scene.textures.push(Entry { place: self.place(&place), keys: named });
+        entry.second_uvs = (by != UvsOf::First).then_some(true);
+        entry.bends_by_first_uvs = (by == UvsOf::Framed && role == TextureRole::Normals).then_some(true);
+        entry.times = times.map(|times| at.at(TextureName(times.to_owned())));
+        self.scene.file.texture.push(TextureEntry::Image(entry));
         self.textures.insert(key, name.clone());
         Ok(name)
     }
@@ -120,24 +114,20 @@ impl Importer<'_> {
     }
 
     /// How texels are interpolated, and what is beyond the picture. Where nothing is said of magnification, it is as for minification.
-    fn sampler(&mut self, index: usize, keys: &mut Keys, place: &str) -> Result<(), String> {
+    fn sampler(&mut self, index: usize, entry: &mut ImageEntry, place: &str) -> Result<(), String> {
         let sampler = self.root.samplers.get(index).cloned().ok_or_else(|| format!("{place}: there is no samplers[{index}]"))?;
         let mut wrap = |wrap: Option<u64>, key: &str| match wrap {
-            None | Some(REPEAT) => "repeat",
-            Some(CLAMP) => "clamp",
-            Some(MIRROR) => "mirror",
+            None | Some(REPEAT) => WrapEntry::Repeat,
+            Some(CLAMP) => WrapEntry::Clamp,
+            Some(MIRROR) => WrapEntry::Mirror,
             Some(other) => {
                 self.approximate(format!("{key} {other}"), &format!("samplers[{index}]"), "the picture is repeated");
-                "repeat"
+                WrapEntry::Repeat
             }
         };
         let [along_s, along_t] = [wrap(sampler.wrap_s, "wrapS"), wrap(sampler.wrap_t, "wrapT")];
-        if along_s != "repeat" {
-            keys.set("wrap", along_s);
-        }
-        if along_t != along_s {
-            keys.set("wrap_v", along_t);
-        }
+        entry.wrap = (along_s != WrapEntry::Repeat).then_some(along_s);
+        entry.wrap_v = (along_t != along_s).then_some(along_t);
         let known = [NEAREST, LINEAR].iter().chain(&NEAREST_MIPMAPS).chain(&LINEAR_MIPMAPS);
         for (key, filter) in [("magFilter", sampler.mag_filter), ("minFilter", sampler.min_filter)] {
             if let Some(filter) = filter
@@ -148,12 +138,12 @@ impl Importer<'_> {
         }
         let is_nearest = |filter: u64| filter == NEAREST || NEAREST_MIPMAPS.contains(&filter);
         if sampler.mag_filter.or(sampler.min_filter).is_some_and(is_nearest) {
-            keys.set("filter", "nearest");
+            entry.filter = Some(TextureFilterEntry::Nearest);
         }
         Ok(())
     }
 
-    fn picture(&mut self, index: usize, image: &Image) -> Result<FileReference, String> {
+    fn picture(&mut self, index: usize, image: &Image) -> Result<FileOr<EmbeddedFile>, String> {
         if let Some(file) = self.pictures.get(&index) {
             return Ok(file.clone());
         }
@@ -166,15 +156,15 @@ impl Importer<'_> {
                 {
                     return Err(format!("{} {}", path.display(), unread("Basis or KTX2")));
                 }
-                FileReference::Disk(path)
+                FileOr::OnDisk(path)
             }
             (Some(uri), _) => {
                 let (_, bytes) = read_uri(self.files, &self.folder, uri)?;
-                self.hold_picture(index, image, bytes)?
+                embedded_picture(index, image, bytes)?
             }
             (None, Some(view)) => {
                 let bytes = self.buffers.view(view)?.to_vec();
-                self.hold_picture(index, image, bytes)?
+                embedded_picture(index, image, bytes)?
             }
             (None, None) => return Err("it names no file and no bufferView".to_owned()),
         };
@@ -183,37 +173,39 @@ impl Importer<'_> {
     }
 
     /// The roughness that a picture's glossiness stands for, as a picture of its own.
-    fn roughness(&mut self, file: &FileReference, factor: f64, index: usize) -> Result<FileReference, String> {
+    fn roughness(&self, file: &FileOr<EmbeddedFile>, factor: f64, index: usize) -> Result<FileOr<EmbeddedFile>, String> {
         let bytes = match file {
-            FileReference::Disk(path) => {
+            FileOr::OnDisk(path) => {
                 self.files.read(path, MOST_MODEL_BYTES).map_err(|error| format!("{}: cannot be read: {error}", show(path)))?
             }
-            FileReference::Held(held) => match self.scene.held.get(*held) {
-                Some((_, HeldContent::Bytes(bytes))) => bytes.to_vec().into(),
-                _ => return Err("it is no picture".to_owned()),
-            },
+            FileOr::InMemory(file) => file.bytes.to_vec().into(),
+            FileOr::Written(path) => return Err(format!("{path} is not a file of this one")),
         };
         let inverted = inverted_alpha(&bytes, factor)?;
-        Ok(self.scene.hold_bytes(&format!("roughness-{index}"), "png", inverted))
+        Ok(embedded(format!("roughness-{index}.png"), inverted))
     }
+}
 
-    /// The bytes themselves say their format.
-    fn hold_picture(&mut self, index: usize, image: &Image, bytes: Vec<u8>) -> Result<FileReference, String> {
-        let ending = match &bytes[..] {
-            [0x89, b'P', b'N', b'G', ..] => "png",
-            [0xff, 0xd8, ..] => "jpg",
-            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => "webp",
-            [0xab, b'K', b'T', b'X', ..] => return Err(unread("Basis or KTX2")),
-            [b'D', b'D', b'S', b' ', ..] => return Err(unread("DDS")),
-            [_, _, _, _, b'f', b't', b'y', b'p', b'a', b'v', b'i', b'f' | b's', ..] => return Err(unread("AVIF")),
-            [b'G', b'I', b'F', b'8', ..] => "gif",
-            [b'B', b'M', ..] => "bmp",
-            [b'I', b'I', 42, 0, ..] | [b'M', b'M', 0, 42, ..] => "tif",
-            [b'#', b'?', ..] => "hdr",
-            _ => return Err("it is neither PNG nor JPEG nor WebP".to_owned()),
-        };
-        let name = image.name.clone().unwrap_or_else(|| format!("image-{index}"));
-        let stem = Path::new(&name).file_stem().map_or_else(|| name.clone(), |stem| stem.to_string_lossy().into_owned());
-        Ok(self.scene.hold_bytes(&stem, ending, bytes))
-    }
+fn embedded(name: String, bytes: Vec<u8>) -> FileOr<EmbeddedFile> {
+    FileOr::InMemory(EmbeddedFile { name, bytes: bytes.into() }.into())
+}
+
+/// A picture whose format its own bytes say.
+fn embedded_picture(index: usize, image: &Image, bytes: Vec<u8>) -> Result<FileOr<EmbeddedFile>, String> {
+    let ending = match &bytes[..] {
+        [0x89, b'P', b'N', b'G', ..] => "png",
+        [0xff, 0xd8, ..] => "jpg",
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => "webp",
+        [0xab, b'K', b'T', b'X', ..] => return Err(unread("Basis or KTX2")),
+        [b'D', b'D', b'S', b' ', ..] => return Err(unread("DDS")),
+        [_, _, _, _, b'f', b't', b'y', b'p', b'a', b'v', b'i', b'f' | b's', ..] => return Err(unread("AVIF")),
+        [b'G', b'I', b'F', b'8', ..] => "gif",
+        [b'B', b'M', ..] => "bmp",
+        [b'I', b'I', 42, 0, ..] | [b'M', b'M', 0, 42, ..] => "tif",
+        [b'#', b'?', ..] => "hdr",
+        _ => return Err("it is neither PNG nor JPEG nor WebP".to_owned()),
+    };
+    let name = image.name.clone().unwrap_or_else(|| format!("image-{index}"));
+    let stem = Path::new(&name).file_stem().map_or_else(|| name.clone(), |stem| stem.to_string_lossy().into_owned());
+    Ok(embedded(format!("{stem}.{ending}"), bytes))
 }

@@ -1,5 +1,7 @@
 //! Primitives of meshes: triangles, strips and fans.
 
+use std::sync::Arc;
+
 use glam::{DAffine2, DVec2, Vec2, Vec3};
 use serde_json::{Map, Value};
 
@@ -7,7 +9,8 @@ use super::importer::Importer;
 use super::json::Primitive;
 use super::made::{Bending, Coordinates, Form, MadePrimitive, Paint};
 use super::variant;
-use crate::load::import::{Blocks, Entry, Keys};
+use crate::load::file::syntax::TextureEntry;
+use crate::load::import::Blocks;
 use crate::load::model::{FARTHEST, MeshAttribute};
 use crate::scene::Mesh;
 
@@ -66,31 +69,30 @@ impl Importer<'_> {
             let is_beside = material.coordinates.is_some();
             let blocks = if is_beside { Blocks::beside(&mut built) } else { Blocks::of(&mut built) };
             deformation.spread(blocks.corners());
-            let name = self.scene.free_texture_name(&format!("{key}.COLOR_0"));
-            let made = blocks.texture(&colours.attribute, colours.alpha.as_deref(), &mut self.scene);
-            let mut keys = Keys::new().with("name", name.as_str());
-            keys.0.extend(made.ok_or("COLOR_0 makes no picture")?.0);
-            if is_beside {
-                keys.set("second_uvs", true);
-            }
-            self.scene.textures.push(Entry { place: self.place(&key), keys });
+            let (name, place) = (self.scene.free_texture_name(&format!("{key}.COLOR_0")), self.place(&key));
+            let made = blocks.texture(&colours.attribute, colours.alpha.as_deref(), &place);
+            let mut entry = made.ok_or("COLOR_0 makes no picture")?;
+            entry.name = place.at(name.clone());
+            entry.second_uvs = is_beside.then_some(true);
+            self.scene.file.texture.push(TextureEntry::Image(entry));
             form.paint = Some(Paint { texture: name, has_alpha: colours.alpha.is_some() });
         }
         if form != Form::default() {
             material = self.material_as(named, &form)?;
         }
         built.smooth = !built.normals.is_empty();
-        let (triangles, smooth) = (built.faces.len() as u64, built.smooth);
-        let name = of.name.clone().unwrap_or_else(|| format!("mesh-{mesh}"));
-        let (file, deformation) = if is_bent {
-            deformation.base = built.into();
-            check_range(&deformation.at_rest())?;
-            let (file, keys) = self.hold_bent(&name, deformation, bending);
-            (file, Some(keys))
+        let (triangles, mesh_of_file) = (built.faces.len() as u64, Arc::new(built));
+        let deformation = if is_bent {
+            deformation.base = mesh_of_file.clone();
+            let rest = deformation.at_rest();
+            check_range(&rest)?;
+            self.scene.add_deformed(&mesh_of_file, rest);
+            let place = self.place(&key);
+            Some(Box::new(place.at(self.deformation_entry(&deformation, bending, &place)?)))
         } else {
-            (self.scene.hold_mesh(&name, built), None)
+            None
         };
-        let made = MadePrimitive { file, material: material.name, smooth, triangles, deformation };
+        let made = MadePrimitive { mesh: mesh_of_file, material: material.name, triangles, deformation };
         if bending.is_none() {
             self.meshes.insert((mesh, index), made.clone());
         }

@@ -8,9 +8,11 @@ use std::io::Cursor;
 use exr::prelude::{Image, SpecificChannels, Vec2 as Place, WritableImage};
 use glam::{Vec2, Vec3};
 
-use super::description::Description;
-use super::keys::{FileReference, Keys};
+use crate::load::file::reference::FileOr;
+use crate::load::file::syntax::{ImageEntry, TextureFilterEntry, WrapEntry};
+use crate::load::image_file::EmbeddedFile;
 use crate::load::model::MeshAttribute;
+use crate::load::place;
 use crate::scene::Mesh;
 
 /// How the blocks of a mesh's triangles lie in a picture.
@@ -66,8 +68,9 @@ impl Blocks {
         &self.corners
     }
 
-    /// The attribute as a texture, without its name. `alpha`, where there is one, holds a number for each value.
-    pub fn texture(&self, attribute: &MeshAttribute, alpha: Option<&[f32]>, scene: &mut Description) -> Option<Keys> {
+    /// The attribute as a texture with an empty name, which stands at a place of the imported file. `alpha`, where there is one, holds a number
+    /// for each value.
+    pub fn texture(&self, attribute: &MeshAttribute, alpha: Option<&[f32]>, at: &place::Place) -> Option<ImageEntry> {
         let value = |face: usize, corner: usize| {
             let place = if attribute.of_faces { face } else { self.corners.get(face)?[corner] as usize };
             let alpha = alpha.map_or(Some(1.0), |alpha| alpha.get(place).copied())?;
@@ -97,15 +100,21 @@ impl Blocks {
             };
             Image::from_channels(size, SpecificChannels::rgb(texel)).write().to_buffered(to).ok()?;
         }
-        let file: FileReference = scene.hold_bytes(&attribute.name, "exr", bytes);
-        Some(Keys::of_type("image").with("file", file).with("wrap", "clamp").with("filter", "triangle"))
+        let file = EmbeddedFile { name: format!("{}.exr", attribute.name), bytes: bytes.into() };
+        let file = at.at(FileOr::InMemory(file.into()));
+        Some(ImageEntry {
+            wrap: Some(WrapEntry::Clamp),
+            filter: Some(TextureFilterEntry::Triangle),
+            ..ImageEntry::of_file(at.at(String::new()), file)
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::load::import::keys::Value;
+    use crate::load::files::Files;
+    use crate::load::image_file::{PictureSource, Pictures};
 
     /// The plane through a block's first three texels, at texture coordinates.
     fn look_up(image: &crate::scene::ImageData, uv: Vec2) -> Vec3 {
@@ -133,14 +142,10 @@ mod tests {
         let blocks = Blocks::of(&mut mesh);
         assert_eq!((mesh.positions.len(), mesh.uvs.len(), mesh.faces.len()), (15, 15, 5));
         for attribute in [of_vertices, of_faces] {
-            let mut scene = Description::default();
-            let keys = blocks.texture(&attribute, None, &mut scene).expect("it can be written");
-            assert_eq!(keys.text("filter"), Some("triangle"));
-            let mut files = crate::load::files::Files::default();
-            let folder = std::path::Path::new("nowhere");
-            scene.hold_in(&mut files, folder);
-            let Some(Value::File(file)) = keys.get("file") else { panic!("it names a file") };
-            let picture = crate::load::image_file::Pictures::new(files).read(&folder.join(scene.held_path(file)), None);
+            let keys = blocks.texture(&attribute, None, &place::Place::default()).expect("it can be written");
+            assert!(matches!(keys.filter, Some(TextureFilterEntry::Triangle)));
+            let FileOr::InMemory(file) = keys.file.value else { panic!("it is in memory") };
+            let picture = Pictures::new(Files::default()).read(&PictureSource::Embedded(file), None);
             let image = picture.expect("it is a picture").image;
             for (face, corners) in faces.iter().enumerate() {
                 for [b, c] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.3, 0.3], [0.1, 0.8], [0.45, 0.55]] {

@@ -2,167 +2,162 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::description::{Description, Entry, HeldContent};
-use super::keys::{Keys, Value};
-use super::placed::{matrix_of, matrix_value};
-
-/// Keys whose values are names of materials, textures, nodes or groups.
-const REFERENCES: [&str; 9] =
-    ["group", "material", "materials", "node", "anisotropy_direction", "normal_map", "coat_normal_map", "bump_map", "texture"];
-
-/// Marks the name of a material of the scene around, which stays as it is.
-const OURS: char = '\u{1}';
+use super::description::{Description, map_of};
+use crate::load::file::light::LightEntry;
+use crate::load::file::node::NodeEntry;
+use crate::load::file::shape::{ShapeEntry, TransformEntry};
+use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
+use crate::load::place::Place;
 
 impl Description {
-    /// Moves all of it.
-    pub fn place(&mut self, map: &DAffine3) {
-        for shape in self.shapes.iter_mut().chain(&mut self.instances) {
-            let own = shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
-            if let Some(matrix) = matrix_value(&(*map * own)) {
-                shape.keys.set("transform", matrix);
-            } else {
-                shape.keys.0.retain(|(key, _)| *key != "transform");
-            }
+    /// Moves all of it; `place` says where the map is stated.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn transform_by(&mut self, map: &DAffine3, place: &Place) -> Result<(), String> {
+        let shapes = self.file.shape.iter_mut().map(|shape| shape.value.common_mut().transform);
+        for transform in shapes.chain(self.file.instance.iter_mut().map(|instance| &mut instance.value.transform)) {
+            *transform = TransformEntry::of_map(&(*map * map_of(transform.as_ref())), place)?;
         }
-        self.place_nodes(map);
-        let camera = self.camera.iter_mut();
-        for entry in self.lights.iter_mut().chain(camera) {
-            for (key, value) in &mut entry.keys.0 {
-                let Some(vector) = vector(value) else { continue };
-                match *key {
-                    "position" | "look_at" => *value = map.transform_point3(vector).into(),
-                    "direction" | "up" => *value = (map.matrix3 * vector).normalize_or(vector).into(),
-                    _ => {}
+        self.transform_nodes(map, place)?;
+        if let Some(camera) = &mut self.file.camera {
+            move_point(map, &mut camera.position)?;
+            move_point(map, &mut camera.look_at.value)?;
+            camera.up.as_mut().map_or(Ok(()), |up| turn(map, &mut up.value))?;
+        }
+        let upright = turn_about_y(map);
+        for light in &mut self.file.light {
+            match &mut light.value {
+                LightEntry::Point(keys) => move_point(map, &mut keys.position)?,
+                LightEntry::Directional(keys) => turn(map, &mut keys.direction.value)?,
+                LightEntry::Spot(keys) => {
+                    move_point(map, &mut keys.position)?;
+                    turn(map, &mut keys.direction.value)?;
+                    keys.up.as_mut().map_or(Ok(()), |up| turn(map, &mut up.value))?;
                 }
-            }
-            if entry.keys.text("type") == Some("environment")
-                && let Some(turn) = turn_about_y(map)
-                && let Some(Value::Number(degrees)) = entry.keys.get("rotate")
-            {
-                let degrees = degrees + turn;
-                entry.keys.set("rotate", degrees);
+                LightEntry::Projector(keys) => {
+                    move_point(map, &mut keys.position)?;
+                    turn(map, &mut keys.direction.value)?;
+                    keys.up.as_mut().map_or(Ok(()), |up| turn(map, &mut up.value))?;
+                }
+                LightEntry::Environment(keys) => {
+                    if let (Some(degrees), Some(rotate)) = (upright, &mut keys.rotate) {
+                        *rotate = Number::of(rotate.0 + degrees)?;
+                    }
+                }
+                LightEntry::Sky(_) => {}
             }
         }
-        let is_map = |light: &Entry| light.keys.get("file").is_some();
-        if turn_about_y(map).is_none() && self.lights.iter().any(is_map) {
-            let place = self.lights.iter().find(|light| is_map(light)).map(|light| light.place.to_string());
+        let is_map = |light: &&Located<LightEntry>| matches!(&light.value, LightEntry::Environment(keys) if keys.file.is_some());
+        if let (None, Some(light)) = (upright, self.file.light.iter().find(is_map)) {
             let instead = "it stands upright as before";
-            self.report.approximate("environment map of a scene that is turned over", place.unwrap_or_default(), instead);
+            self.report.approximate("environment map of a scene that is turned over", light.place.to_string(), instead);
         }
+        Ok(())
     }
 
     /// Puts the nodes into one that stands where all is moved to: what they take along is moved already.
-    fn place_nodes(&mut self, map: &DAffine3) {
-        let Some(matrix) = matrix_value(map).filter(|_| !self.nodes.is_empty()) else { return };
-        let name = self.free_node_name("(placed)");
-        for node in self.nodes.iter_mut().filter(|node| node.keys.get("parent").is_none()) {
-            node.keys.set("parent", name.as_str());
+    fn transform_nodes(&mut self, map: &DAffine3, place: &Place) -> Result<(), String> {
+        if self.file.node.is_empty() {
+            return Ok(());
         }
-        let keys = Keys::new().with("name", name).with("transform", matrix);
-        self.nodes.push(Entry { keys, ..Entry::default() });
+        let Some(transform) = TransformEntry::of_map(map, place)? else { return Ok(()) };
+        let name = place.at(self.free_node_name("(placed)"));
+        for node in self.file.node.iter_mut().filter(|node| node.value.parent.is_none()) {
+            node.value.parent = Some(name.clone());
+        }
+        let node = NodeEntry { name, parent: None, transform: Some(transform), keyframes: None, interpolation: None };
+        self.file.node.push(place.at(node));
+        Ok(())
     }
 
     /// A scene has one environment: keeps its own only where that is `open`, and says whether it still is.
     pub fn keep_environment(&mut self, open: bool) -> bool {
-        let is_environment = |light: &Entry| matches!(light.keys.text("type"), Some("environment" | "sky"));
-        let Some(first) = self.lights.iter().position(is_environment) else { return open };
-        let mut place = 0;
+        let mut is_open = open;
         let mut left_out = Vec::new();
-        self.lights.retain(|light| {
-            let keeps = !is_environment(light) || open && place == first;
+        self.file.light.retain(|light| {
+            let keeps = !light.value.is_environment() || std::mem::replace(&mut is_open, false);
             if !keeps {
                 left_out.push(light.place.to_string());
             }
-            place += 1;
             keeps
         });
         for place in left_out {
             self.report.drop("environment of an imported file", place, "the scene has another one");
         }
-        false
+        is_open
     }
 
     /// Lets shapes and blends have a material of the scene around in place of one of its own. Whether it has that one.
-    pub fn replace_material(&mut self, theirs: &str, ours: &str) -> bool {
-        let before = self.materials.len();
-        self.materials.retain(|entry| entry.keys.text("name") != Some(theirs));
-        let replaced = format!("{OURS}{ours}");
+    pub fn replace_material(&mut self, theirs: &str, ours: &Located<String>) -> bool {
+        let before = self.file.material.len();
+        self.file.material.retain(|entry| entry.name() != theirs);
         let variants = &self.material_variants;
-        let of_groups = self.groups.iter_mut().flat_map(|group| &mut group.shapes);
-        for entry in self.shapes.iter_mut().chain(of_groups).chain(&mut self.materials) {
-            let is_theirs = |name: &str| name == theirs || variants.get(name).is_some_and(|of| of == theirs);
-            rename(&mut entry.keys, &["material", "materials"], &|name| {
-                if is_theirs(name) { replaced.clone() } else { name.to_owned() }
-            });
-        }
-        self.materials.len() < before
+        let replace = |name: &mut Located<String>| {
+            if name.value == theirs || variants.get(&name.value).is_some_and(|of| of == theirs) {
+                *name = ours.clone();
+            }
+        };
+        let of_groups = self.file.group.iter_mut().flat_map(|group| &mut group.shape);
+        let shapes = self.file.shape.iter_mut().chain(of_groups);
+        shapes.filter_map(|shape| shape.value.common_mut().material.as_mut()).for_each(replace);
+        self.file.material.iter_mut().flat_map(|entry| entry.parts_mut()).for_each(replace);
+        self.file.material.len() < before
     }
 
     /// Puts `prefix` before all names, so that they are not those of the scene around.
-    pub fn prefix_names(&mut self, prefix: &str, held: impl Fn(usize) -> String) {
-        let renamed = |name: &str| match name.strip_prefix(OURS) {
-            Some(ours) => ours.to_owned(),
-            None => format!("{prefix}{name}"),
-        };
-        for entry in self.textures.iter_mut().chain(&mut self.materials) {
-            rename(&mut entry.keys, &["name"], &renamed);
+    pub fn prefix_names(&mut self, prefix: &str) {
+        let add = |name: &mut String| name.insert_str(0, prefix);
+        let add_to = |name: &mut Option<Located<String>>| name.iter_mut().for_each(|name| add(&mut name.value));
+        for texture in &mut self.file.texture {
+            let common = texture.common_mut();
+            add(&mut common.name.value);
+            common.times.iter_mut().for_each(|times| add(&mut times.value.0));
         }
-        for entry in &mut self.textures {
-            rename(&mut entry.keys, &["times"], &renamed);
+        for material in &mut self.file.material {
+            add(&mut material.common_mut().name.value);
+            material.each_texture(&mut |name| add(name));
+            material.parts_mut().iter_mut().for_each(|part| add(&mut part.value));
         }
-        self.groups.iter_mut().for_each(|group| group.name = renamed(&group.name));
-        let of_groups = self.groups.iter_mut().flat_map(|group| &mut group.shapes);
-        for entry in self.materials.iter_mut().chain(&mut self.shapes).chain(of_groups).chain(&mut self.instances) {
-            rename(&mut entry.keys, &REFERENCES, &renamed);
+        let of_groups = self.file.group.iter_mut().flat_map(|group| &mut group.shape);
+        for shape in self.file.shape.iter_mut().chain(of_groups) {
+            let common = shape.value.common_mut();
+            add_to(common.material);
+            add_to(common.node);
+            if let ShapeEntry::Mesh(keys) = &mut shape.value {
+                let joints = keys.deformation.iter_mut().flat_map(|deformation| &mut deformation.value.joints);
+                joints.flat_map(|joints| &mut joints.value).for_each(|joint| add_to(&mut joint.node));
+            }
         }
-        for node in &mut self.nodes {
-            rename(&mut node.keys, &["name", "parent"], &renamed);
+        self.file.group.iter_mut().for_each(|group| add(&mut group.name.value));
+        for instance in &mut self.file.instance {
+            add(&mut instance.value.group.value);
+            add_to(&mut instance.value.material);
         }
-        for entry in self.camera.iter_mut().chain(&mut self.lights) {
-            rename(&mut entry.keys, &["node"], &renamed);
+        for node in &mut self.file.node {
+            add(&mut node.value.name.value);
+            add_to(&mut node.value.parent);
         }
-        for (index, (name, content)) in self.held.iter_mut().enumerate() {
-            let ending = match content {
-                HeldContent::Mesh(_) => "ply",
-                HeldContent::Bytes(_) => name.rsplit('.').next().unwrap_or_default(),
-            };
-            *name = format!("{}.{ending}", held(index));
+        self.file.camera.iter_mut().for_each(|camera| add_to(&mut camera.node));
+        for light in &mut self.file.light {
+            light.value.node_mut().into_iter().for_each(add_to);
+            light.value.texture_mut().into_iter().for_each(|texture| add(&mut texture.value.0));
         }
+        let variants = std::mem::take(&mut self.material_variants);
+        self.material_variants =
+            variants.into_iter().map(|(of, is)| (format!("{prefix}{of}"), format!("{prefix}{is}"))).collect();
     }
 }
 
-/// Renames what these keys name, at any depth.
-fn rename(keys: &mut Keys, of: &[&str], renamed: &dyn Fn(&str) -> String) {
-    for (key, value) in &mut keys.0 {
-        match value {
-            Value::Text(name) if of.contains(key) => *name = renamed(name),
-            Value::List(names) if of.contains(key) => {
-                for name in names {
-                    if let Value::Text(name) = name {
-                        *name = renamed(name);
-                    }
-                }
-            }
-            Value::List(tables) if of != ["name"] => {
-                for table in tables {
-                    if let Value::Table(keys) = table {
-                        rename(keys, of, renamed);
-                    }
-                }
-            }
-            // The name of a table within is no name of an entry.
-            Value::Table(keys) if of != ["name"] => rename(keys, of, renamed),
-            _ => {}
-        }
-    }
+fn move_point(map: &DAffine3, point: &mut Vector) -> Result<(), String> {
+    *point = Exactly::of(map.transform_point3(vector(*point)).to_array())?;
+    Ok(())
 }
 
-fn vector(value: &Value) -> Option<DVec3> {
-    let Value::List(numbers) = value else { return None };
-    match numbers[..] {
-        [Value::Number(x), Value::Number(y), Value::Number(z)] => Some(DVec3::new(x, y, z)),
-        _ => None,
-    }
+fn turn(map: &DAffine3, direction: &mut Vector) -> Result<(), String> {
+    let before = vector(*direction);
+    *direction = Exactly::of((map.matrix3 * before).normalize_or(before).to_array())?;
+    Ok(())
 }
 
 /// Degrees about +Y, where the map leaves that upright.

@@ -4,20 +4,23 @@
 //! picture is made that does.
 
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use exr::math::Vec2;
 use exr::prelude::{Image, SpecificChannels, WritableImage};
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::converter::Converter;
-use super::input::{Input, Texels};
+use super::input::Texels;
 use super::plugin::Plugin;
 use super::texture::uv_map;
 use crate::load::error::SceneError;
-use crate::load::image_file::Pictures;
-use crate::load::import::{FileReference, HeldContent, Keys, Value};
+use crate::load::file::reference::FileOr;
+use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
+use crate::load::image_file::{EmbeddedFile, PictureSource, Pictures};
+use crate::load::import::Input;
 use crate::scene::{ColorSpace, ImageData};
 
 /// Rec.709
@@ -38,13 +41,13 @@ impl Converter<'_> {
         let linear = raw || gamma == Some(1.0);
         let filter = plugin.text("filter_type")?.unwrap_or("bilinear");
         let wrap = match plugin.text("wrap_mode")?.unwrap_or("repeat") {
-            "repeat" => "repeat",
-            "mirror" => "mirror",
-            "clamp" => "clamp",
+            "repeat" => WrapEntry::Repeat,
+            "mirror" => WrapEntry::Mirror,
+            "clamp" => WrapEntry::Clamp,
             other => {
                 let what = format!("wrap_mode `{other}`");
                 self.approximate(plugin, &what, "`clamp` is taken");
-                "clamp"
+                WrapEntry::Clamp
             }
         };
         plugin.without_effect(&["format", "accel", "to_uv", "max_anisotropy", "cache", "to_srgb"]);
@@ -53,30 +56,33 @@ impl Converter<'_> {
             self.drop(plugin, "channel of a bitmap", "all of its channels are taken");
         }
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        let mut keys = Keys::of_type("image");
-        for (key, value) in self.picture_keys(&path, &stem, linear, texels).0 {
-            keys.set(key, value);
-        }
-        if wrap != "repeat" {
-            keys.set("wrap", wrap);
-        }
-        if filter == "nearest" {
-            keys.set("filter", "nearest");
-        }
+        let (file, color_space) = self.picture(&path, &stem, linear, texels);
+        let place = plugin.at();
+        let mut entry = ImageEntry::of_file(place.at(String::new()), place.at(file));
+        entry.color_space = color_space;
+        entry.wrap = (wrap != WrapEntry::Repeat).then_some(wrap);
+        entry.filter = (filter == "nearest").then_some(TextureFilterEntry::Nearest);
         // v runs downward: 1 − v is looked up.
         let down = DAffine2 { matrix2: DMat2::from_diagonal(DVec2::new(1.0, -1.0)), translation: DVec2::Y };
-        let keys = self.placed_texture(plugin, keys, down * uv_map(plugin)? * before);
-        Ok(self.add_texture(plugin, &stem, keys))
+        let mut entry = TextureEntry::Image(entry);
+        self.place_texture(plugin, &mut entry, down * uv_map(plugin)? * before)?;
+        Ok(self.add_texture(plugin, &stem, entry))
     }
 
-    /// `file` and `color_space`: the picture itself, or one that is made of it.
-    fn picture_keys(&mut self, path: &Path, stem: &str, linear: bool, texels: Texels) -> Keys {
+    /// The picture itself, or one that is made of it, and its colour space.
+    fn picture(
+        &mut self,
+        path: &Path,
+        stem: &str,
+        linear: bool,
+        texels: Texels,
+    ) -> (FileOr<EmbeddedFile>, Option<ColorSpaceEntry>) {
         let is_float =
             path.extension().is_some_and(|ending| ["exr", "hdr", "rgbe", "pfm"].iter().any(|e| ending.eq_ignore_ascii_case(e)));
         // Data must be marked as such.
         let is_data = matches!(texels, Texels::Heights | Texels::Normals);
-        let space = if is_data || linear && !is_float { Some("linear") } else { None };
-        let plain = Keys::new().with("file", FileReference::Disk(path.to_owned())).with_some("color_space", space);
+        let space = (is_data || linear && !is_float).then_some(ColorSpaceEntry::Linear);
+        let plain = (FileOr::OnDisk(path.to_owned()), space);
         let is_decoded = is_data && !linear && !is_float;
         if texels == Texels::Colours || texels == Texels::Normals && !is_decoded {
             return plain;
@@ -87,16 +93,17 @@ impl Converter<'_> {
             None => {
                 let space = linear.then_some(ColorSpace::Linear);
                 // A picture that cannot be read is told when the texture is.
-                let picture = Pictures::new(self.files.clone()).read(path, space).ok().map(|picture| picture.image);
+                let picture = Pictures::new(self.files.clone()).read_file(path, space).ok().map(|picture| picture.image);
                 let wanted = picture.filter(|image| texels == Texels::Normals || is_decoded || !is_grey(image));
                 let bytes = wanted.and_then(|image| as_exr(&image, texels));
-                let file = bytes.map(|bytes| self.scene.hold_bytes(stem, "exr", bytes));
+                let embedded = |bytes: Vec<u8>| Arc::new(EmbeddedFile { name: format!("{stem}.exr"), bytes: bytes.into() });
+                let file = bytes.map(embedded);
                 self.made_pictures.insert(made, file.clone());
                 file
             }
         };
         match file {
-            Some(file) => Keys::new().with("file", file).with_some("color_space", is_data.then_some("linear")),
+            Some(file) => (FileOr::InMemory(file), is_data.then_some(ColorSpaceEntry::Linear)),
             None => plain,
         }
     }
@@ -104,30 +111,18 @@ impl Converter<'_> {
     /// The mean of what a parameter gives over its texture.
     pub fn mean(&self, input: &Input) -> DVec3 {
         let Input::Texture(name, factor) = input else { return input.constant().unwrap_or(DVec3::ONE) };
-        let Some(entry) = self.scene.textures.iter().find(|entry| entry.keys.text("name") == Some(name)) else { return *factor };
-        let colour = |key: &str| match entry.keys.get(key) {
-            Some(Value::Number(grey)) => DVec3::splat(*grey),
-            Some(Value::List(parts)) => match parts[..] {
-                [Value::Number(red), Value::Number(green), Value::Number(blue)] => DVec3::new(red, green, blue),
-                _ => DVec3::ZERO,
-            },
-            _ => DVec3::ZERO,
+        let image = match self.scene.file.texture.iter().find(|entry| entry.name() == name) {
+            Some(TextureEntry::Image(image)) => image,
+            Some(TextureEntry::Checker(checker)) => return *factor * 0.5 * (checker.a.0 + checker.b.0),
+            _ => return *factor,
         };
-        let space = (entry.keys.text("color_space") == Some("linear")).then_some(ColorSpace::Linear);
-        let mut files = self.files.clone();
-        let path = match entry.keys.get("file") {
-            None => return *factor * 0.5 * (colour("a") + colour("b")),
-            Some(Value::File(FileReference::Disk(path))) => path.clone(),
-            Some(Value::File(held @ FileReference::Held(index))) => {
-                let path = self.scene.held_path(held);
-                if let Some((_, HeldContent::Bytes(bytes))) = self.scene.held.get(*index) {
-                    files.hold_bytes(path.clone(), bytes.clone());
-                }
-                path
-            }
-            Some(_) => PathBuf::new(),
+        let source = match &image.file.value {
+            FileOr::InMemory(file) => PictureSource::Embedded(file.clone()),
+            FileOr::OnDisk(path) => PictureSource::File(path.clone()),
+            FileOr::Written(path) => PictureSource::File(path.into()),
         };
-        let picture = Pictures::new(files).read(&path, space);
+        let space = image.color_space.filter(|space| *space == ColorSpaceEntry::Linear).map(ColorSpace::from);
+        let picture = Pictures::new(self.files.clone()).read(&source, space);
         let mean = picture.map_or(DVec3::ONE, |picture| {
             let texels = &picture.image.texels;
             texels.colors().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64

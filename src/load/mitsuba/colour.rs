@@ -8,7 +8,7 @@ use super::number::parse_number;
 use super::plugin::{PropertyValue, Spectrum, error_at};
 use super::transform::numbers;
 use crate::load::error::SceneError;
-use crate::load::import::Place;
+use crate::load::place::Origin;
 
 /// What a spectrum is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,7 +128,7 @@ fn planck(nanometres: f64, kelvin: f64) -> f64 {
     2e-9 * PLANCK * LIGHT * LIGHT / wavelength.powi(5) / exponent.exp_m1()
 }
 
-fn hex(place: &Place, text: &str) -> Result<DVec3, SceneError> {
+fn hex(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
     let digits = &text[1..];
     let wrong = || error_at(place, format!("expected a colour as #rrggbb, found `{text}`"));
     let number = u32::from_str_radix(digits, 16).map_err(|_| wrong())?;
@@ -146,7 +146,7 @@ fn decoded(colour: DVec3) -> DVec3 {
 }
 
 /// One number or three.
-pub fn parse_rgb(place: &Place, text: &str) -> Result<DVec3, SceneError> {
+pub fn parse_rgb(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
     let text = text.trim();
     if text.starts_with('#') && text.is_ascii() {
         return hex(place, text);
@@ -158,12 +158,12 @@ pub fn parse_rgb(place: &Place, text: &str) -> Result<DVec3, SceneError> {
     }
 }
 
-pub fn parse_srgb(place: &Place, text: &str) -> Result<DVec3, SceneError> {
+pub fn parse_srgb(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
     if text.trim().starts_with('#') { parse_rgb(place, text) } else { parse_rgb(place, text).map(decoded) }
 }
 
 /// One number, three of linear Rec.709, or `wavelength:value` pairs.
-pub fn parse_spectrum(place: &Place, text: &str) -> Result<PropertyValue, SceneError> {
+pub fn parse_spectrum(place: &Origin, text: &str) -> Result<PropertyValue, SceneError> {
     if !text.contains(':') {
         return match numbers(place, text.trim().trim_start_matches('#'))?[..] {
             [value] if !text.trim().starts_with('#') => Ok(PropertyValue::Spectrum(Spectrum::Uniform(value))),
@@ -181,7 +181,7 @@ pub fn parse_spectrum(place: &Place, text: &str) -> Result<PropertyValue, SceneE
 }
 
 /// Lines of a wavelength and a value; those that begin with # say nothing.
-pub fn parse_spectrum_file(place: &Place, text: &str) -> Result<Spectrum, SceneError> {
+pub fn parse_spectrum_file(place: &Origin, text: &str) -> Result<Spectrum, SceneError> {
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let pairs = lines.map(|line| match numbers(place, line)?[..] {
         [wavelength, value] => Ok((wavelength, value)),
@@ -191,7 +191,7 @@ pub fn parse_spectrum_file(place: &Place, text: &str) -> Result<Spectrum, SceneE
 }
 
 /// Samples in ascending order.
-pub fn samples(place: &Place, pairs: Vec<(f64, f64)>) -> Result<Spectrum, SceneError> {
+pub fn samples(place: &Origin, pairs: Vec<(f64, f64)>) -> Result<Spectrum, SceneError> {
     if pairs.is_empty() || pairs.windows(2).any(|pair| pair[0].0 >= pair[1].0) {
         return Err(error_at(place, "the wavelengths of a spectrum ascend"));
     }
@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn colours_are_read_in_every_form() {
-        let place = Place::default();
+        let place = Origin::default();
         assert_eq!(parse_rgb(&place, "0.5").unwrap(), DVec3::splat(0.5));
         assert_eq!(parse_rgb(&place, "1, 2 3").unwrap(), DVec3::new(1.0, 2.0, 3.0));
         assert!((parse_srgb(&place, "#ff8000").unwrap() - DVec3::new(1.0, 0.2158605, 0.0)).length() < 1e-6);

@@ -3,15 +3,19 @@
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use glam::DAffine3;
 
 use super::document::Reader;
-use super::input::{Input, Texels};
+use super::input::Texels;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
+use crate::load::file::shape::{ShapeEntry, TransformEntry};
+use crate::load::file::value::Located;
 use crate::load::files::Files;
-use crate::load::import::{Description, Entry, FileReference, Keys, matrix_value};
+use crate::load::image_file::EmbeddedFile;
+use crate::load::import::{Description, Input};
 use crate::load::model::Substitute;
 use crate::scene::Mesh;
 
@@ -42,13 +46,13 @@ pub struct Converter<'a> {
     pub default_materials: [Option<usize>; 2],
     pub textures: HashMap<(*const Plugin, bool, Texels, Option<usize>), Input>,
     /// Pictures that were made of others, by the file, whether its texels are linear and whether they are directions; None where the file says the same.
-    pub made_pictures: HashMap<(PathBuf, bool, bool), Option<FileReference>>,
+    pub made_pictures: HashMap<(PathBuf, bool, bool), Option<Arc<EmbeddedFile>>>,
     /// The attributes of the mesh whose material is being made, where it looks any up: by their names as `vertex_color`, and a number of
     /// the mesh.
     pub attributes: Option<(usize, Rc<HashMap<String, Input>>)>,
     /// Those of every mesh that was read with them, by its key.
     pub attributes_of_meshes: HashMap<String, (usize, Rc<HashMap<String, Input>>)>,
-    pub meshes: HashMap<String, FileReference>,
+    pub meshes: HashMap<String, Arc<Mesh>>,
     /// Keys of meshes of which nothing is left.
     pub meshes_without_area: HashSet<String>,
     /// Files of meshes as they stand.
@@ -65,7 +69,7 @@ pub struct Converter<'a> {
 /// A group of shapes that instances name.
 pub struct StoredGroup {
     pub plugin: Rc<Plugin>,
-    pub shapes: Vec<Entry>,
+    pub shapes: Vec<Located<ShapeEntry>>,
     pub places: Vec<DAffine3>,
     pub is_stored_once: bool,
 }
@@ -101,8 +105,8 @@ impl Converter<'_> {
         }
     }
 
-    /// The keys of a transform that puts something into the world.
-    pub fn placed(&self, map: &DAffine3, keys: Keys) -> Keys {
-        keys.with_some("transform", matrix_value(&(self.world * *map)))
+    /// The transform of a shape that a map puts into the world.
+    pub fn transform(&self, map: &DAffine3, plugin: &Plugin) -> Result<Option<Located<TransformEntry>>, SceneError> {
+        plugin.possible(TransformEntry::of_map(&(self.world * *map), &plugin.at()))
     }
 }

@@ -15,8 +15,9 @@ use super::versions::{modern_kind, modern_name, old_texture_coordinates};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_SCENE_BYTES};
-use crate::load::import::{ImportReport, Place};
+use crate::load::import::ImportReport;
 use crate::load::memory;
+use crate::load::place::Origin;
 
 /// Most files that include each other.
 const DEEPEST_INCLUDE: usize = 16;
@@ -70,9 +71,9 @@ pub struct Source<'d> {
 }
 
 impl Source<'_> {
-    pub fn place(&self, node: Node) -> Place {
+    pub fn place(&self, node: Node) -> Origin {
         let line = self.line_ends.partition_point(|end| *end < node.range().start) + 1;
-        Place { file: self.name.to_owned(), line: Some(line), key: String::new() }
+        Origin { file: self.name.to_owned(), line: Some(line), key: String::new() }
     }
 }
 
@@ -252,12 +253,12 @@ impl<'a> Reader<'a> {
     }
 }
 
-fn empty_plugin(kind: &str, place: Place) -> Plugin {
+fn empty_plugin(kind: &str, place: Origin) -> Plugin {
     Plugin {
         kind: kind.to_owned(),
         name: String::new(),
         id: String::new(),
-        place,
+        place: place.into(),
         properties: Vec::new(),
         children: Vec::new(),
         within: Within::default(),

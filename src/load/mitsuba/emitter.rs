@@ -6,29 +6,37 @@ use std::rc::Rc;
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::converter::Converter;
-use super::input::Input;
 use super::plugin::Plugin;
 use crate::load::error::{SceneError, show};
+use crate::load::file::colour::Rgb;
+use crate::load::file::light::{LightEntry, directional, environment, point, projector, sky, spot};
+use crate::load::file::reference::{FileOr, TextureName};
+use crate::load::file::syntax::TextureEntry;
+use crate::load::file::value::{Checked, Exactly, Located, NonNegative, Number, Vector};
 use crate::load::image_file::Pictures;
-use crate::load::import::{Entry, FileReference, Keys, Value, world_direction};
+use crate::load::import::{Input, world_direction};
 
 impl Converter<'_> {
     pub fn emitter(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
         plugin.visited.set(true);
         plugin.without_effect(&["sampling_weight", "id"]);
-        let keys = match plugin.name.as_str() {
+        let entry = match plugin.name.as_str() {
             "point" => {
                 let position = match plugin.vector("position")? {
                     Some(position) => position,
                     None => plugin.transform("to_world")?.translation,
                 };
                 let intensity = self.constant(plugin, "intensity")?;
-                Keys::of_type("point")
-                    .with("position", self.world.transform_point3(position))
-                    .with("intensity", intensity.value())
+                LightEntry::Point(point::Keys {
+                    position: vector(plugin, self.world.transform_point3(position))?,
+                    intensity: rgb(plugin, intensity)?,
+                    keyframes: None,
+                    interpolation: None,
+                    node: None,
+                })
             }
-            "spot" => self.spot(plugin)?,
-            "projector" => self.projector(plugin)?,
+            "spot" => LightEntry::Spot(self.spot(plugin)?),
+            "projector" => LightEntry::Projector(self.projector(plugin)?),
             "directional" => {
                 let direction = match plugin.vector("direction")? {
                     Some(direction) => direction,
@@ -36,13 +44,13 @@ impl Converter<'_> {
                 };
                 let direction = self.direction(plugin, direction)?;
                 let irradiance = self.constant(plugin, "irradiance")?;
-                Keys::of_type("directional").with("direction", direction).with("irradiance", irradiance.value())
+                sun(plugin, direction, irradiance)?
             }
             "constant" => {
-                let radiance = self.constant(plugin, "radiance")?;
-                Keys::of_type("environment").with("radiance", radiance.value())
+                let radiance = plugin.at().at(rgb(plugin, self.constant(plugin, "radiance")?)?);
+                LightEntry::Environment(environment::Keys::constant(radiance))
             }
-            "envmap" => self.environment_map(plugin)?,
+            "envmap" => LightEntry::Environment(self.environment_map(plugin)?),
             "sky" | "sunsky" | "sun" | "directionalarea" | "collimated" | "area" | "perspective" => {
                 return self.emitter_without_likeness(plugin);
             }
@@ -52,7 +60,7 @@ impl Converter<'_> {
                 return Ok(());
             }
         };
-        self.scene.lights.push(Entry { place: plugin.place.clone(), keys });
+        self.scene.file.light.push(plugin.at().at(entry));
         Ok(())
     }
 
@@ -70,35 +78,36 @@ impl Converter<'_> {
         }
         // Typical of a clear day, in the units of Mitsuba's models: the sky is about 0.1 of the sun's irradiance.
         self.approximate(plugin, &what, "a plain blue sky, and a sun without extent");
-        let place = plugin.place.clone();
+        let place = plugin.at();
         if plugin.name != "sun" {
-            let keys = Keys::of_type("sky")
-                .with("zenith", DVec3::new(0.03, 0.05, 0.1))
-                .with("horizon", DVec3::new(0.09, 0.11, 0.13))
-                .with("ground", DVec3::splat(0.02));
-            self.scene.lights.push(Entry { place: place.clone(), keys });
+            let keys = sky::Keys {
+                zenith: rgb(plugin, DVec3::new(0.03, 0.05, 0.1))?,
+                horizon: rgb(plugin, DVec3::new(0.09, 0.11, 0.13))?,
+                ground: rgb(plugin, DVec3::splat(0.02))?,
+            };
+            self.scene.file.light.push(place.at(LightEntry::Sky(keys)));
         }
         if plugin.name != "sky" {
             let toward = plugin.vector("sun_direction")?.unwrap_or(DVec3::new(0.4, 0.7, 0.3));
             let direction = self.direction(plugin, -toward)?;
-            let keys = Keys::of_type("directional").with("direction", direction).with("irradiance", DVec3::new(1.4, 1.3, 1.1));
-            self.scene.lights.push(Entry { place, keys });
+            let entry = sun(plugin, direction, DVec3::new(1.4, 1.3, 1.1))?;
+            self.scene.file.light.push(place.at(entry));
         }
         Ok(())
     }
 
     /// A colour of light; of a texture its place is taken by 1.
-    fn constant(&mut self, plugin: &Plugin, name: &str) -> Result<Input, SceneError> {
+    fn constant(&mut self, plugin: &Plugin, name: &str) -> Result<DVec3, SceneError> {
         let input = self.light_colour(plugin, name, 1.0)?;
         let Some(colour) = input.constant() else {
             let what = format!("texture of {}", plugin.title());
             self.drop(plugin, &what, "1 is taken for it");
-            return Ok(Input::grey(1.0));
+            return Ok(DVec3::ONE);
         };
         if colour.min_element() < 0.0 {
             return Err(plugin.error(format!("`{name}` is below 0")));
         }
-        Ok(Input::Constant(colour))
+        Ok(colour)
     }
 
     fn direction(&self, plugin: &Plugin, direction: DVec3) -> Result<DVec3, SceneError> {
@@ -118,74 +127,85 @@ impl Converter<'_> {
         }
     }
 
-    /// The axis of a light, where its pictures' upper edge is, and whether `to_world` mirrors.
-    fn aim(&self, plugin: &Plugin) -> Result<(Keys, DVec3, bool), SceneError> {
+    /// The position of a light and its axis, where its pictures' upper edge is, and whether `to_world` mirrors.
+    fn aim(&self, plugin: &Plugin) -> Result<Aim, SceneError> {
         let map = plugin.transform("to_world")?;
-        let keys = Keys::new()
-            .with("position", self.world.transform_point3(map.translation))
-            .with("direction", self.direction(plugin, map.matrix3.z_axis)?);
-        let up = self.direction(plugin, map.matrix3.y_axis)?;
-        Ok((keys, up, map.matrix3.determinant() < 0.0))
+        Ok(Aim {
+            position: vector(plugin, self.world.transform_point3(map.translation))?,
+            direction: plugin.at().at(vector(plugin, self.direction(plugin, map.matrix3.z_axis)?)?),
+            up: plugin.at().at(vector(plugin, self.direction(plugin, map.matrix3.y_axis)?)?),
+            mirrors: map.matrix3.determinant() < 0.0,
+        })
     }
 
     /// Its texture covers the square around the cone; u grows to the left of it.
-    fn spot(&mut self, plugin: &Plugin) -> Result<Keys, SceneError> {
+    fn spot(&mut self, plugin: &Plugin) -> Result<spot::Keys, SceneError> {
         let cutoff = plugin.number_or("cutoff_angle", 20.0)?;
         let beam = plugin.number_or("beam_width", 0.75 * cutoff)?;
         if !(cutoff > 0.0 && cutoff <= 90.0 && beam >= 0.0) {
             return Err(plugin.error(format!("`cutoff_angle` is above 0 and at most 90 degrees, not {cutoff}")));
         }
-        let (aim, up, mirrors) = self.aim(plugin)?;
+        let Aim { position, direction, up, mirrors } = self.aim(plugin)?;
         let mut intensity = self.constant(plugin, "intensity")?;
-        let mut keys = Keys::of_type("spot");
-        keys.0.extend(aim.0);
+        let mut texture = None;
         if plugin.child("texture").is_some() {
             match self.thrown(plugin, "texture", [!mirrors, false])? {
-                Input::Constant(colour) => intensity = Input::Constant(intensity.constant().unwrap_or(DVec3::ONE) * colour),
+                Input::Constant(colour) => intensity *= colour,
                 Input::Texture(name, factor) => {
-                    intensity = Input::Constant(intensity.constant().unwrap_or(DVec3::ONE) * factor);
-                    keys.set("texture", name);
-                    keys.set("up", up);
+                    intensity *= factor;
+                    texture = Some(plugin.at().at(TextureName(name)));
                 }
             }
         }
-        let keys = keys.with("intensity", intensity.value()).with("angle", cutoff).with("falloff", beam.min(cutoff));
-        Ok(if beam < cutoff { keys.with("curve", "linear") } else { keys })
+        Ok(spot::Keys {
+            position,
+            direction,
+            intensity: rgb(plugin, intensity)?,
+            angle: plugin.possible(Checked::of(cutoff))?,
+            falloff: Some(plugin.at().at(plugin.possible(Checked::of(beam.min(cutoff)))?)),
+            curve: (beam < cutoff).then_some(spot::CurveName::Linear),
+            up: Some(up).filter(|_| texture.is_some()),
+            texture,
+            keyframes: None,
+            interpolation: None,
+            node: None,
+        })
     }
 
     /// Mitsuba's `irradiance` is π times as much. Its picture stands upright for what looks along with the light.
-    fn projector(&mut self, plugin: &Plugin) -> Result<Keys, SceneError> {
+    fn projector(&mut self, plugin: &Plugin) -> Result<projector::Keys, SceneError> {
         let scale = PI * plugin.number_or("scale", 1.0)?;
-        let (aim, up, mirrors) = self.aim(plugin)?;
+        let Aim { position, direction, up, mirrors } = self.aim(plugin)?;
         let irradiance = self.thrown(plugin, "irradiance", [mirrors, true])?;
         let aspect = self.aspect_of(plugin, &irradiance)?;
         let half_width = self.half_width(plugin, aspect)?;
-        let mut keys = Keys::of_type("projector");
-        keys.0.extend(aim.0);
-        keys.set("up", up);
-        keys.set("vfov", 2.0 * (half_width / aspect).atan().to_degrees());
-        keys.set("aspect", aspect);
-        match irradiance {
-            Input::Constant(colour) => keys.set("irradiance", Input::Constant(colour * scale).value()),
-            Input::Texture(name, factor) => {
-                keys.set("irradiance", Input::Constant(factor * scale).value());
-                keys.set("texture", name);
-            }
-        }
-        Ok(keys)
+        let (factor, texture) = match irradiance {
+            Input::Constant(colour) => (colour, None),
+            Input::Texture(name, factor) => (factor, Some(plugin.at().at(TextureName(name)))),
+        };
+        Ok(projector::Keys {
+            position,
+            direction,
+            up: Some(up),
+            irradiance: rgb(plugin, factor * scale)?,
+            vfov: plugin.possible(Checked::of(2.0 * (half_width / aspect).atan().to_degrees()))?,
+            aspect: Some(plugin.possible(Checked::of(aspect))?),
+            texture,
+        })
     }
 
     /// Width over height of a texture's picture; 1 of what has none.
     fn aspect_of(&self, plugin: &Plugin, input: &Input) -> Result<f64, SceneError> {
         let Input::Texture(name, _) = input else { return Ok(1.0) };
-        let entry = self.scene.textures.iter().find(|entry| entry.keys.text("name") == Some(name));
-        let Some(Value::File(FileReference::Disk(path))) = entry.and_then(|entry| entry.keys.get("file")) else { return Ok(1.0) };
-        let picture = Pictures::new(self.files.clone()).read(path, None);
+        let entry = self.scene.file.texture.iter().find(|entry| entry.name() == name);
+        let Some(TextureEntry::Image(image)) = entry else { return Ok(1.0) };
+        let FileOr::OnDisk(path) = &image.file.value else { return Ok(1.0) };
+        let picture = Pictures::new(self.files.clone()).read_file(path, None);
         let picture = picture.map_err(|reason| plugin.error(format!("{}: {reason}", show(path))))?;
         Ok(f64::from(picture.image.width) / f64::from(picture.image.height))
     }
 
-    fn environment_map(&mut self, plugin: &Plugin) -> Result<Keys, SceneError> {
+    fn environment_map(&mut self, plugin: &Plugin) -> Result<environment::Keys, SceneError> {
         plugin.without_effect(&["mis_compensation", "cache", "gamma"]);
         let written = plugin.text("filename")?.ok_or_else(|| plugin.error("an environment map needs the string `filename`"))?;
         let path = self.reader.find(written).ok_or_else(|| plugin.error(format!("there is no file {written}")))?;
@@ -198,11 +218,45 @@ impl Converter<'_> {
         }
         let degrees = turn.x_axis.z.atan2(turn.x_axis.x) * -180.0 / PI;
         // Mitsuba's columns lie as ours do; its first and last row lie on the poles.
-        let keys = Keys::of_type("environment").with("file", FileReference::Disk(path)).with("rows", "to_poles");
-        let keys = if scale == 1.0 { keys } else { keys.with("scale", scale) };
-        let keys = keys.with_some("mirror", mirrors.then_some(true));
-        Ok(keys.with("rotate", degrees))
+        let place = plugin.at();
+        let scale = if scale == 1.0 { None } else { Some(place.at(plugin.possible(Checked::of(scale))?)) };
+        Ok(environment::Keys {
+            radiance: None,
+            file: Some(place.at(FileOr::OnDisk(path))),
+            scale,
+            rotate: Some(plugin.possible(Number::of(degrees))?),
+            mirror: mirrors.then(|| place.at(true)),
+            rows: Some(environment::Rows::ToPoles),
+            keyframes: None,
+            interpolation: None,
+        })
     }
+}
+
+/// Where a light stands and what it is directed at.
+struct Aim {
+    position: Vector,
+    direction: Located<Vector>,
+    up: Located<Vector>,
+    mirrors: bool,
+}
+
+fn vector(plugin: &Plugin, value: DVec3) -> Result<Vector, SceneError> {
+    plugin.possible(Exactly::of(value.to_array()))
+}
+
+fn rgb(plugin: &Plugin, colour: DVec3) -> Result<Rgb<NonNegative>, SceneError> {
+    plugin.possible(Rgb::of(colour))
+}
+
+fn sun(plugin: &Plugin, direction: DVec3, irradiance: DVec3) -> Result<LightEntry, SceneError> {
+    Ok(LightEntry::Directional(directional::Keys {
+        direction: plugin.at().at(vector(plugin, direction)?),
+        irradiance: rgb(plugin, irradiance)?,
+        keyframes: None,
+        interpolation: None,
+        node: None,
+    }))
 }
 
 /// The radiance of a shape's emitter.

@@ -4,10 +4,15 @@
 //! v runs the other way, and a material whose textures are turned over to make up for it: all pictures lie as before, and green points as there.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec2};
 
-use crate::load::import::{Description, Entry, FileReference, Keys, Value, list, matrix_of};
+use crate::load::file::material::MaterialEntry;
+use crate::load::file::reference::FileOr;
+use crate::load::file::shape::ShapeEntry;
+use crate::load::file::value::{Exactly, Located, Number};
+use crate::load::import::Description;
 use crate::scene::Mesh;
 
 /// Turns over what is mirrored and has a normal map.
@@ -17,92 +22,82 @@ pub fn turn_mirrored(scene: &mut Description) {
         return;
     }
     let mut turned = Turned::default();
-    let shapes = std::mem::take(&mut scene.shapes);
-    scene.shapes = shapes.into_iter().flat_map(|shape| turned.shape(scene, shape, &bent)).collect();
-    for index in 0..scene.groups.len() {
-        let shapes = std::mem::take(&mut scene.groups[index].shapes);
-        scene.groups[index].shapes = shapes.into_iter().flat_map(|shape| turned.shape(scene, shape, &bent)).collect();
+    let shapes = std::mem::take(&mut scene.file.shape);
+    scene.file.shape = shapes.into_iter().flat_map(|shape| turned.shape(scene, shape, &bent)).collect();
+    for index in 0..scene.file.group.len() {
+        let shapes = std::mem::take(&mut scene.file.group[index].shape);
+        scene.file.group[index].shape = shapes.into_iter().flat_map(|shape| turned.shape(scene, shape, &bent)).collect();
     }
 }
 
 /// The names of materials that have one, or blend one that has. Blends share their parts, so nothing is walked twice: where parts stand before
 /// what blends them, as the reader puts them, the second pass finds nothing new.
 fn with_normal_maps(scene: &Description) -> HashSet<String> {
-    let named = || scene.materials.iter().filter_map(|entry| Some((entry.keys.text("name")?, &entry.keys)));
-    let has_map = named().filter(|(_, keys)| keys.get("normal_map").is_some());
-    let mut bent: HashSet<String> = has_map.map(|(name, _)| name.to_owned()).collect();
+    let materials = &scene.file.material;
+    let has_map = materials.iter().filter(|entry| entry.common().normal_map.is_some());
+    let mut bent: HashSet<String> = has_map.map(|entry| entry.name().to_owned()).collect();
     let mut before = 0;
     while bent.len() > before {
         before = bent.len();
-        for (name, keys) in named() {
-            if parts(keys).any(|part| bent.contains(part)) {
-                bent.insert(name.to_owned());
+        for entry in materials {
+            if entry.parts().iter().any(|part| bent.contains(&part.value)) {
+                bent.insert(entry.name().to_owned());
             }
         }
     }
     bent
 }
 
-/// What a blend blends.
-fn parts(material: &Keys) -> impl Iterator<Item = &str> {
-    let names = if let Some(Value::List(names)) = material.get("materials") { &names[..] } else { &[] };
-    names.iter().filter_map(|name| if let Value::Text(name) = name { Some(name.as_str()) } else { None })
-}
-
-/// What was turned over before: a mesh file's parts, materials and textures, by their names.
+/// What was turned over before: meshes' parts by their addresses, materials and textures by their names.
 #[derive(Default)]
 struct Turned {
     /// The handedness of meshes at rest and of those that a mirror shows.
-    meshes: HashMap<(usize, bool), Vec<(FileReference, bool)>>,
+    meshes: HashMap<(usize, bool), Vec<(Arc<Mesh>, bool)>>,
     materials: HashMap<String, String>,
     textures: HashMap<String, String>,
 }
 
 impl Turned {
     /// The shape as it is, or in up to two parts.
-    fn shape(&mut self, scene: &mut Description, shape: Entry, bent: &HashSet<String>) -> Vec<Entry> {
-        let Some(material) = shape.keys.text("material").filter(|name| bent.contains(*name)) else {
-            return vec![shape];
-        };
-        let (material, Some(Value::File(FileReference::Held(index)))) = (material.to_owned(), shape.keys.get("file")) else {
-            return vec![shape];
-        };
-        let mirrors = shape.keys.get("transform").and_then(matrix_of).is_some_and(|map| map.matrix3.determinant() < 0.0);
-        let parts = self.mesh(scene, *index, mirrors);
-        let part = |(file, is_turned): (FileReference, bool)| {
-            let mut part = shape.clone();
-            part.keys.set("file", file);
+    fn shape(&mut self, scene: &mut Description, shape: Located<ShapeEntry>, bent: &HashSet<String>) -> Vec<Located<ShapeEntry>> {
+        let ShapeEntry::Mesh(keys) = &shape.value else { return vec![shape] };
+        let Some(material) = keys.material.clone().filter(|name| bent.contains(&name.value)) else { return vec![shape] };
+        let Some(FileOr::InMemory(mesh)) = keys.file.as_ref().map(|file| &file.value) else { return vec![shape] };
+        let map = keys.transform.as_ref().and_then(|transform| transform.value.map());
+        let parts = self.mesh(mesh, map.is_some_and(|map| map.matrix3.determinant() < 0.0));
+        let part = |(mesh, is_turned): (Arc<Mesh>, bool)| {
+            let mut part = keys.clone();
+            part.file = Some(shape.place.at(FileOr::InMemory(mesh)));
             if is_turned {
-                part.keys.set("material", self.material(scene, &material));
+                part.material = Some(material.place.at(self.material(scene, &material.value)));
             }
-            part
+            shape.place.at(ShapeEntry::Mesh(part))
         };
         parts.into_iter().map(part).collect()
     }
 
     /// The faces that are as they should be, and those that were turned over.
-    fn mesh(&mut self, scene: &mut Description, index: usize, mirrors: bool) -> Vec<(FileReference, bool)> {
-        if let Some(parts) = self.meshes.get(&(index, mirrors)) {
+    fn mesh(&mut self, mesh: &Arc<Mesh>, mirrors: bool) -> Vec<(Arc<Mesh>, bool)> {
+        let key = (Arc::as_ptr(mesh) as usize, mirrors);
+        if let Some(parts) = self.meshes.get(&key) {
             return parts.clone();
         }
-        let whole = FileReference::Held(index);
-        let Some(mesh) = scene.mesh(&whole).filter(|mesh| !mesh.uvs.is_empty()).cloned() else { return vec![(whole, false)] };
+        if mesh.uvs.is_empty() {
+            return vec![(mesh.clone(), false)];
+        }
         let (mirrored, others): (Vec<[u32; 3]>, Vec<[u32; 3]>) =
-            mesh.faces.iter().partition(|face| is_mirrored(&mesh, **face) != mirrors);
+            mesh.faces.iter().partition(|face| is_mirrored(mesh, **face) != mirrors);
         let mut parts = Vec::new();
         if mirrored.is_empty() {
-            parts.push((whole, false));
+            parts.push((mesh.clone(), false));
         } else {
-            let name = scene.held.get(index).map_or("", |(name, _)| name);
-            let name = name.split_once('-').map_or(name, |(_, name)| name).trim_end_matches(".ply").to_owned();
-            let uvs = mesh.uvs.iter().map(|uv| Vec2::new(uv.x, -uv.y)).collect();
-            let turned = Mesh { faces: mirrored, uvs, ..Mesh::clone(&mesh) };
             if !others.is_empty() {
-                parts.push((scene.hold_mesh(&name, Mesh { faces: others, ..Mesh::clone(&mesh) }), false));
+                parts.push((Arc::new(Mesh { faces: others, ..Mesh::clone(mesh) }), false));
             }
-            parts.push((scene.hold_mesh(&format!("{name}-mirrored"), turned), true));
+            let uvs = mesh.uvs.iter().map(|uv| Vec2::new(uv.x, -uv.y)).collect();
+            parts.push((Arc::new(Mesh { faces: mirrored, uvs, ..Mesh::clone(mesh) }), true));
         }
-        self.meshes.insert((index, mirrors), parts.clone());
+        self.meshes.insert(key, parts.clone());
         parts
     }
 
@@ -113,32 +108,21 @@ impl Turned {
         }
         let turned = scene.free_material_name(&format!("{name}, mirrored"));
         self.materials.insert(name.to_owned(), turned.clone());
-        let Some(mut entry) = scene.materials.iter().find(|entry| entry.keys.text("name") == Some(name)).cloned() else {
+        let Some(mut entry) = scene.file.material.iter().find(|entry| entry.name() == name).cloned() else {
             return name.to_owned();
         };
-        self.keys(scene, &mut entry.keys);
-        entry.keys.set("name", turned.as_str());
+        self.turn_over(scene, &mut entry);
+        entry.common_mut().name.value = turned.clone();
         scene.material_variants.insert(turned.clone(), name.to_owned());
-        scene.materials.push(entry);
+        scene.file.material.push(entry);
         turned
     }
 
-    fn keys(&mut self, scene: &mut Description, keys: &mut Keys) {
-        for (key, value) in &mut keys.0 {
-            match value {
-                Value::Text(name) if ["texture", "normal_map", "coat_normal_map", "bump_map"].contains(key) => {
-                    *name = self.texture(scene, name);
-                }
-                Value::List(names) if *key == "materials" => {
-                    for name in names {
-                        if let Value::Text(name) = name {
-                            *name = self.material(scene, name);
-                        }
-                    }
-                }
-                Value::Table(keys) => self.keys(scene, keys),
-                _ => {}
-            }
+    /// Lets a material look up turned textures, and blend turned materials.
+    fn turn_over(&mut self, scene: &mut Description, entry: &mut MaterialEntry) {
+        entry.each_texture(&mut |name| *name = self.texture(scene, name));
+        for part in entry.parts_mut() {
+            part.value = self.material(scene, &part.value);
         }
     }
 
@@ -146,20 +130,17 @@ impl Turned {
         if let Some(turned) = self.textures.get(name) {
             return turned.clone();
         }
-        let Some(mut entry) = scene.textures.iter().find(|entry| entry.keys.text("name") == Some(name)).cloned() else {
+        let Some(mut entry) = scene.file.texture.iter().find(|entry| entry.name() == name).cloned() else {
             return name.to_owned();
         };
         let turned = scene.free_texture_name(&format!("{name}, mirrored"));
-        let [along_u, along_v] = match entry.keys.get("scale") {
-            Some(Value::List(factors)) => match factors[..] {
-                [Value::Number(u), Value::Number(v)] => [u, v],
-                _ => [1.0; 2],
-            },
-            _ => [1.0; 2],
-        };
-        entry.keys.set("scale", list([along_u, -along_v]));
-        entry.keys.set("name", turned.as_str());
-        scene.textures.push(entry);
+        if let Some(scale) = entry.scale_mut() {
+            let [along_u, along_v] = scale.map_or([1.0; 2], |scale| scale.map(|factor| factor.0));
+            // Both were possible before.
+            *scale = Exactly::<Number, 2>::of([along_u, -along_v]).ok();
+        }
+        entry.common_mut().name.value = turned.clone();
+        scene.file.texture.push(entry);
         self.textures.insert(name.to_owned(), turned.clone());
         turned
     }

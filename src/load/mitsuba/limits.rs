@@ -2,12 +2,12 @@
 
 use super::plugin::error_at;
 use crate::load::error::SceneError;
-use crate::load::import::Place;
+use crate::load::place::Origin;
 
 /// Most shapes of a scene.
 pub const MOST_SHAPES: usize = 1 << 20;
 
 /// The error where there are more.
-pub fn too_many_shapes(place: &Place) -> SceneError {
+pub fn too_many_shapes(place: &Origin) -> SceneError {
     error_at(place, format!("the scene has more than {MOST_SHAPES} shapes, instances counted"))
 }

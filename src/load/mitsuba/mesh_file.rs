@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
@@ -12,8 +13,10 @@ use super::plugin::{Plugin, PropertyValue};
 use super::serialized;
 use super::shape::{Looks, turn_inside_out};
 use crate::load::error::{SceneError, show};
+use crate::load::file::shape::ShapeEntry;
+use crate::load::file::syntax::TextureEntry;
 use crate::load::files::Files;
-use crate::load::import::{Blocks, Keys, is_uniform, smooth_by_index};
+use crate::load::import::{Blocks, is_uniform, smooth_by_index};
 use crate::load::{obj, ply};
 use crate::scene::Mesh;
 
@@ -25,7 +28,7 @@ impl Converter<'_> {
         plugin: &Rc<Plugin>,
         (around, own): (DAffine3, DAffine3),
         looks: Looks,
-    ) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+    ) -> Result<Option<(ShapeEntry, DAffine3)>, SceneError> {
         let Looks { textured, flip, attributes, .. } = looks;
         let map = around * own;
         plugin.without_effect(&[
@@ -51,9 +54,9 @@ impl Converter<'_> {
         let (mirrors, uneven) = (own.matrix3.determinant() < 0.0, !flat && !is_uniform(&own));
         let by_map = if uneven { format!("{:?}", own.matrix3) } else { format!("{mirrors}") };
         let key = format!("{} {index} {flat} {flip} {turn_uv} {textured} {attributes} {by_map} {}", path.display(), plugin.name);
-        if let Some(file) = self.meshes.get(&key).cloned() {
+        if let Some(mesh) = self.meshes.get(&key).cloned() {
             self.attributes = self.attributes_of_meshes.get(&key).cloned();
-            return self.mesh_keys(plugin, file, map).map(Some);
+            return self.mesh_entry(plugin, mesh, map).map(Some);
         }
         // It is not read again to find that it has none.
         if self.meshes_without_area.contains(&key) {
@@ -102,10 +105,8 @@ impl Converter<'_> {
         if !textured {
             mesh.uvs.clear();
         }
-        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        let file = self.scene.hold_mesh(&name, mesh);
-        self.meshes.insert(key, file.clone());
-        self.mesh_keys(plugin, file, map).map(Some)
+        let mesh = self.meshes.entry(key).or_insert(Arc::new(mesh)).clone();
+        self.mesh_entry(plugin, mesh, map).map(Some)
     }
 
     /// Makes pictures of the numbers that the vertices and faces of a PLY file have, and texture coordinates that lead there.
@@ -119,9 +120,9 @@ impl Converter<'_> {
                 let blocks = Blocks::of(mesh);
                 for attribute in &model.attributes {
                     let name = format!("{}_{}", if attribute.of_faces { "face" } else { "vertex" }, attribute.name);
-                    let made = blocks.texture(attribute, None, &mut self.scene);
+                    let made = blocks.texture(attribute, None, &plugin.at());
                     let made = made.ok_or_else(|| plugin.error(format!("the attribute `{name}` makes no picture")))?;
-                    inputs.insert(name.clone(), self.add_texture(plugin, &name, made));
+                    inputs.insert(name.clone(), self.add_texture(plugin, &name, TextureEntry::Image(made)));
                 }
             }
         }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::colour::{Role, integrate};
-use crate::load::import::Keys;
+use crate::load::file::material::conductor::MetalEntry;
 
 /// Indices of refraction at 589 nm (CRC Handbook of Chemistry and Physics; Schott for BK7).
 const DIELECTRICS: [(&str, f64); 24] = [
@@ -43,15 +43,15 @@ type Oscillator = [f64; 3];
 
 /// Plasma frequency in eV and oscillators, the first of free electrons (Rakić, Djurišić, Elazar and Majewski 1998, "Optical properties of
 /// metallic films for vertical-cavity optoelectronic devices", table 2).
-struct Metal {
+struct Model {
     name: &'static str,
     plasma: f64,
     oscillators: &'static [Oscillator],
 }
 
 #[allow(clippy::approx_constant, reason = "one of the fitted energies is near π by chance")]
-const METALS: [Metal; 4] = [
-    Metal {
+const METALS: [Model; 4] = [
+    Model {
         name: "be",
         plasma: 18.51,
         oscillators: &[
@@ -62,7 +62,7 @@ const METALS: [Metal; 4] = [
             [0.130, 1.802, 4.604],
         ],
     },
-    Metal {
+    Model {
         name: "pd",
         plasma: 9.72,
         oscillators: &[
@@ -73,7 +73,7 @@ const METALS: [Metal; 4] = [
             [0.453, 3.236, 5.715],
         ],
     },
-    Metal {
+    Model {
         name: "pt",
         plasma: 9.59,
         oscillators: &[
@@ -84,7 +84,7 @@ const METALS: [Metal; 4] = [
             [3.576, 8.517, 9.249],
         ],
     },
-    Metal {
+    Model {
         name: "ti",
         plasma: 7.29,
         oscillators: &[
@@ -100,7 +100,7 @@ const METALS: [Metal; 4] = [
 /// Product of Planck's constant and the speed of light, in eV·nm.
 const ENERGY: f64 = 1_239.841_984;
 
-impl Metal {
+impl Model {
     /// n and k at a wavelength in nanometres: the root of the permittivity 1 + Σ fⱼ ωp² / (ωⱼ² − ω² − iωΓⱼ).
     fn index(&self, wavelength: f64) -> (f64, f64) {
         let omega = ENERGY / wavelength;
@@ -189,29 +189,35 @@ fn under_equal_energy(daylight: [f64; 3]) -> DVec3 {
     of_basis(Role::Light) * of_basis(Role::Surface).inverse() * DVec3::from(daylight)
 }
 
-/// The keys of a conductor that say this metal: `preset`, or `eta` and `k`. None of a metal that is not known.
-pub fn conductor(name: &str) -> Option<Keys> {
-    let preset = |preset: &str| Some(Keys::new().with("preset", preset));
+/// What a conductor is of.
+pub enum Metal {
+    Preset(MetalEntry),
+    Constants { eta: DVec3, k: DVec3 },
+}
+
+/// The metal of this name. None of a metal that is not known.
+pub fn conductor(name: &str) -> Option<Metal> {
+    let preset = |preset| Some(Metal::Preset(preset));
     let name = name.to_ascii_lowercase();
     let plain = name.strip_suffix("_palik").unwrap_or(&name);
     match plain {
-        "au" | "gold" => return preset("gold"),
-        "cu" | "copper" => return preset("copper"),
-        "ag" | "silver" => return preset("silver"),
-        "al" | "aluminium" | "aluminum" => return preset("aluminium"),
+        "au" | "gold" => return preset(MetalEntry::Gold),
+        "cu" | "copper" => return preset(MetalEntry::Copper),
+        "ag" | "silver" => return preset(MetalEntry::Silver),
+        "al" | "aluminium" | "aluminum" => return preset(MetalEntry::Aluminium),
         _ => {}
     }
     if let Some(Told { n, k, .. }) = TOLD.iter().find(|one| one.name == plain) {
         // An index of 0 is a perfect mirror, which a small one is as well.
-        return Some(Keys::new().with("eta", DVec3::from(*n).max(DVec3::splat(1e-4))).with("k", DVec3::from(*k)));
+        return Some(Metal::Constants { eta: DVec3::from(*n).max(DVec3::splat(1e-4)), k: DVec3::from(*k) });
     }
     if let Some(Measured { n, k, .. }) = MEASURED.iter().find(|one| one.name == plain) {
-        return Some(Keys::new().with("eta", under_equal_energy(*n)).with("k", under_equal_energy(*k)));
+        return Some(Metal::Constants { eta: under_equal_energy(*n), k: under_equal_energy(*k) });
     }
     let metal = METALS.iter().find(|metal| metal.name == plain)?;
     let eta = integrate(Role::Light, |wavelength| metal.index(wavelength).0);
     let k = integrate(Role::Light, |wavelength| metal.index(wavelength).1);
-    Some(Keys::new().with("eta", eta.max(DVec3::splat(1e-3))).with("k", k.max(DVec3::ZERO)))
+    Some(Metal::Constants { eta: eta.max(DVec3::splat(1e-3)), k: k.max(DVec3::ZERO) })
 }
 
 #[cfg(test)]
@@ -249,7 +255,7 @@ mod tests {
     fn names_are_known_in_any_case() {
         assert_eq!(dielectric("BK7"), Some(1.5046));
         assert_eq!(dielectric("unobtainium"), None);
-        assert!(conductor("Au").is_some_and(|keys| keys.text("preset") == Some("gold")));
-        assert!(conductor("W").is_some_and(|keys| keys.get("eta").is_some()) && conductor("Zz").is_none());
+        assert!(matches!(conductor("Au"), Some(Metal::Preset(MetalEntry::Gold))));
+        assert!(matches!(conductor("W"), Some(Metal::Constants { .. })) && conductor("Zz").is_none());
     }
 }

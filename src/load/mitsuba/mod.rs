@@ -117,7 +117,7 @@ impl Converter<'_> {
                 _ => {}
             }
         }
-        self.finish_groups();
+        self.finish_groups()?;
         self.report_clipped()
     }
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use super::plugin::error_at;
 use crate::load::error::SceneError;
-use crate::load::import::Place;
+use crate::load::place::Origin;
 
 /// Most bytes that an attribute has once its parameters are filled in, and all of them together. Parameters may stand for others, each for two, and
 /// so on: a page of them would be more text than there is memory.
@@ -66,7 +66,7 @@ impl Parameters {
     ///
     /// # Errors
     /// A key without a value, and a text that becomes too long.
-    pub fn filled(&self, place: &Place, text: &str) -> Result<String, SceneError> {
+    pub fn filled(&self, place: &Origin, text: &str) -> Result<String, SceneError> {
         let mut filled = String::new();
         let mut rest = text;
         while let Some(at) = rest.find('$') {

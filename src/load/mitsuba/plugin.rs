@@ -2,11 +2,12 @@
 
 use std::cell::Cell;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
 use crate::load::error::SceneError;
-use crate::load::import::Place;
+use crate::load::place::{Origin, Place};
 
 /// An instance of a plugin: an element with its properties and the plugins within.
 #[derive(Debug)]
@@ -16,7 +17,7 @@ pub struct Plugin {
     /// The plugin, as `diffuse`.
     pub name: String,
     pub id: String,
-    pub place: Place,
+    pub place: Arc<Origin>,
     pub properties: Vec<Property>,
     pub children: Vec<Child>,
     pub within: Within,
@@ -45,7 +46,7 @@ pub struct Within {
 pub struct Property {
     pub name: String,
     pub value: PropertyValue,
-    pub place: Place,
+    pub place: Origin,
     /// Something asked for it, so that it has an effect.
     pub used: Cell<bool>,
 }
@@ -120,6 +121,16 @@ impl Plugin {
     /// An error about the whole plugin.
     pub fn error(&self, message: impl Into<String>) -> SceneError {
         error_at(&self.place, message)
+    }
+
+    /// The plugin's place, which entries made of it have.
+    pub fn at(&self) -> Place {
+        Place::Imported(self.place.clone())
+    }
+
+    /// A value of an entry, or the plugin's error about one that is not possible.
+    pub fn possible<T>(&self, made: Result<T, String>) -> Result<T, SceneError> {
+        made.map_err(|message| self.error(format!("{}: {message}", self.title())))
     }
 
     pub fn has(&self, name: &str) -> bool {
@@ -223,12 +234,8 @@ impl Plugin {
 }
 
 /// An error at a place of an imported file.
-pub fn error_at(place: &Place, message: impl Into<String>) -> SceneError {
-    let error = match place.line {
-        Some(line) => SceneError::in_line(&place.file, line, message),
-        None => SceneError::in_file(&place.file, message),
-    };
-    error.with_key(&place.key)
+pub fn error_at(place: &Origin, message: impl Into<String>) -> SceneError {
+    place.error(message)
 }
 
 fn wrong_kind(property: &Property, expected: &str) -> SceneError {

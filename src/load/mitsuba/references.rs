@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::nesting::DEEPEST;
 use super::plugin::{Child, Plugin, error_at};
 use crate::load::error::SceneError;
-use crate::load::import::Place;
+use crate::load::place::Origin;
 
 /// A plugin without the plugins within, and what names those.
 #[derive(Debug)]
@@ -30,14 +30,14 @@ pub enum Target {
     /// The plugin itself.
     Written(Box<Draft>),
     /// The id of another plugin, and where it is asked for.
-    Named(String, Place),
+    Named(String, Origin),
 }
 
 /// A name for another id.
 #[derive(Debug)]
 struct Alias {
     of: String,
-    place: Place,
+    place: Origin,
 }
 
 /// All ids of a scene.
@@ -62,20 +62,20 @@ impl References {
         }
         self.check_new(&id, &place)?;
         self.written.insert(id.clone(), draft);
-        Ok(Target::Named(id, place))
+        Ok(Target::Named(id, Origin::clone(&place)))
     }
 
     /// Gives a plugin a second id.
     ///
     /// # Errors
     /// The id is another plugin's.
-    pub fn alias(&mut self, new: String, of: String, place: Place) -> Result<(), SceneError> {
+    pub fn alias(&mut self, new: String, of: String, place: Origin) -> Result<(), SceneError> {
         self.check_new(&new, &place)?;
         self.aliases.insert(new, Alias { of, place });
         Ok(())
     }
 
-    fn check_new(&self, id: &str, place: &Place) -> Result<(), SceneError> {
+    fn check_new(&self, id: &str, place: &Origin) -> Result<(), SceneError> {
         let is_known = self.written.contains_key(id) || self.aliases.contains_key(id);
         if is_known { Err(error_at(place, format!("a second plugin has the id `{id}`"))) } else { Ok(()) }
     }
@@ -113,7 +113,7 @@ impl References {
         if plugin.within.depth > DEEPEST { Err(too_deep(&plugin)) } else { Ok(Rc::new(plugin)) }
     }
 
-    fn named(&mut self, mut id: String, place: &Place, depth: usize) -> Result<Rc<Plugin>, SceneError> {
+    fn named(&mut self, mut id: String, place: &Origin, depth: usize) -> Result<Rc<Plugin>, SceneError> {
         // An alias of an alias; a chain without an end is longer than all of them.
         for _ in 0..=self.aliases.len() {
             match self.aliases.get(&id) {
@@ -144,6 +144,6 @@ impl References {
     }
 }
 
-fn unknown(id: &str, place: &Place) -> SceneError {
+fn unknown(id: &str, place: &Origin) -> SceneError {
     error_at(place, format!("there is no plugin with the id `{id}`"))
 }

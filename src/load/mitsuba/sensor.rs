@@ -1,5 +1,6 @@
 //! Sensors with their film and sampler, integrators, and which way the world stands.
 
+use std::num::NonZeroU32;
 use std::rc::Rc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -7,7 +8,9 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use super::converter::Converter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
-use crate::load::import::{Entry, Keys, camera_keys};
+use crate::load::file::syntax::{ApertureEntry, CameraTable, FilterEntry, FilterKeys, ProjectionName, RoundAperture};
+use crate::load::file::value::{Checked, Exactly};
+use crate::load::import::camera_at;
 use crate::scene::settings::{MAX_PIXELS, MAX_SIDE};
 
 /// Pixels of a film that states no size.
@@ -36,12 +39,11 @@ impl Converter<'_> {
         ]);
         plugin.without_effect(&["shading_samples", "emitter_samples", "bsdf_samples", "sample_center"]);
         if plugin.flag("hide_emitters", false)? {
-            self.scene.render.set("emitters", "hidden");
+            self.setting(plugin, "emitters", "hidden")?;
         }
         match plugin.name.as_str() {
             "direct" => {
-                self.scene.render.set("max_depth", 2_i64);
-                return Ok(());
+                return self.setting(plugin, "max_depth", "2");
             }
             "path" | "volpath" | "volpathmis" | "bdpt" | "mlt" | "pssmlt" | "erpt" | "ptracer" | "prb" | "prb_basic"
             | "prbvolpath" | "volpath_simple" | "photonmapper" | "irrcache" | "ppm" | "sppm" | "mis" | "path_mis" => {}
@@ -64,11 +66,15 @@ impl Converter<'_> {
         if depth == 0.0 {
             return Err(plugin.error("with `max_depth` 0 the picture is black"));
         }
-        self.scene.render.set("max_depth", if depth < 0.0 { 0 } else { depth as i64 });
-        if let Some(roulette) = roulette.filter(|depth| (1.0..1e9).contains(depth)) {
-            self.scene.render.set("roulette_depth", roulette as i64);
+        self.setting(plugin, "max_depth", &(depth.max(0.0) as i64).to_string())?;
+        match roulette.filter(|depth| (1.0..1e9).contains(depth)) {
+            Some(roulette) => self.setting(plugin, "roulette_depth", &(roulette as i64).to_string()),
+            None => Ok(()),
         }
-        Ok(())
+    }
+
+    fn setting(&mut self, plugin: &Plugin, name: &'static str, value: &str) -> Result<(), SceneError> {
+        plugin.possible(self.scene.file.render.set(name, value))
     }
 
     /// Environment maps stand upright here: what turns one otherwise turns the whole scene the other way.
@@ -101,7 +107,7 @@ impl Converter<'_> {
             if !(1.0..1e9).contains(&count) {
                 return Err(sampler.error(format!("`sample_count` is a whole number of at least 1, not {count}")));
             }
-            self.scene.render.set("spp", count as i64);
+            self.setting(sampler, "spp", &(count as i64).to_string())?;
         }
         let to_world = self.world * plugin.transform("to_world")?;
         let degenerate = || plugin.error("`to_world` of the sensor leaves no direction to look along");
@@ -115,10 +121,13 @@ impl Converter<'_> {
         // Without a distance, far things are in focus.
         let far = plugin.number_or("far_clip", 1e4)?;
         let focus = plugin.number("focus_distance")?;
-        let mut keys = camera_keys(to_world.translation, forward, up, focus.filter(|distance| *distance > 0.0).unwrap_or(1.0));
+        let (place, position) = (plugin.at(), to_world.translation);
+        let look_at = position + forward * focus.filter(|distance| *distance > 0.0).unwrap_or(1.0);
+        let mut camera = plugin.possible(camera_at(position, look_at, up, &place))?;
         let [close, open] = [plugin.number("shutter_close")?, plugin.number("shutter_open")?];
         if close.is_some() || open.is_some() {
-            keys.set("shutter", [open.unwrap_or(0.0), close.or(open).unwrap_or(0.0)]);
+            let times = [open.unwrap_or(0.0), close.or(open).unwrap_or(0.0)];
+            camera.shutter = Some(place.at(plugin.possible(Exactly::of(times))?));
         }
         match plugin.name.as_str() {
             "orthographic" | "telecentric" => {
@@ -126,18 +135,23 @@ impl Converter<'_> {
                 if (side.dot(to_world.matrix3.y_axis) / (width * height)).abs() > 1e-6 {
                     self.approximate(plugin, "shear of an orthographic sensor", "it is scaled and turned alone");
                 }
-                keys.set("projection", "orthographic");
-                keys.set("height", 2.0 * height * film.size[1] / film.size[0] * film.crop[1] / film.size[1]);
+                camera.projection = Some(place.at(ProjectionName::Orthographic));
+                let shown = 2.0 * height * film.size[1] / film.size[0] * film.crop[1] / film.size[1];
+                camera.height = Some(place.at(plugin.possible(Checked::of(shown))?));
                 let stretch = if (width / height - 1.0).abs() < 1e-9 { 1.0 } else { width / height };
-                keys = keys.with_some("stretch", (stretch != 1.0 && !mirrors).then_some(stretch));
-                keys = keys.with_some("stretch", mirrors.then_some(-stretch));
-                self.shift(plugin, &film, &mut keys);
+                let stretch = if mirrors { -stretch } else { stretch };
+                if stretch != 1.0 {
+                    camera.stretch = Some(place.at(plugin.possible(Checked::of(stretch))?));
+                }
+                self.shift(plugin, &film, &mut camera)?;
             }
             "perspective" | "thinlens" | "perspective_rdist" | "thinlens_rdist" => {
                 let vertical = self.field_of_view(plugin, &film)?;
-                keys.set("vfov", vertical);
-                keys = keys.with_some("stretch", mirrors.then_some(-1.0));
-                self.shift(plugin, &film, &mut keys);
+                camera.vfov = Some(place.at(plugin.possible(Checked::of(vertical))?));
+                if mirrors {
+                    camera.stretch = Some(place.at(plugin.possible(Checked::of(-1.0))?));
+                }
+                self.shift(plugin, &film, &mut camera)?;
                 if plugin.name.starts_with("thinlens") {
                     let radius = plugin.number("aperture_radius")?;
                     let radius = radius.ok_or_else(|| plugin.error("a thin lens needs `aperture_radius`"))?;
@@ -145,13 +159,14 @@ impl Converter<'_> {
                     if distance.is_nan() || distance <= 0.0 {
                         return Err(plugin.error(format!("`focus_distance` is above 0, not {distance}")));
                     }
-                    keys.set("aperture", Keys::new().with("shape", "disk").with("radius", radius));
-                    keys.set("focus_distance", distance);
+                    let radius = plugin.possible(Checked::of(radius))?;
+                    camera.aperture = Some(place.at(ApertureEntry::Disk(RoundAperture { radius })));
+                    camera.focus_distance = Some(plugin.possible(Checked::of(distance))?);
                 }
             }
             other => return Err(plugin.error(format!("the sensor `{other}` cannot be said here; a perspective one can"))),
         }
-        self.scene.camera = Some(Entry { place: plugin.place.clone(), keys });
+        self.scene.file.camera = Some(camera);
         Ok(())
     }
 
@@ -223,7 +238,7 @@ impl Converter<'_> {
     }
 
     /// Pictures whose middle is not on the camera's axis: a crop off the film's middle, or the film moved aside.
-    fn shift(&mut self, plugin: &Rc<Plugin>, film: &Film, keys: &mut Keys) {
+    fn shift(&mut self, plugin: &Rc<Plugin>, film: &Film, camera: &mut CameraTable) -> Result<(), SceneError> {
         let names = ["principal_point_offset_x", "principal_point_offset_y"];
         let shift = [0, 1].map(|side| {
             let beside = film.offset[side] + 0.5 * film.crop[side] - 0.5 * film.size[side];
@@ -234,8 +249,9 @@ impl Converter<'_> {
             (beside + principal * film.size[side]) / film.crop[side]
         });
         if shift.iter().any(|shift| shift.abs() > 1e-12) {
-            keys.set("shift", [shift[0], -shift[1]]);
+            camera.shift = Some(plugin.possible(Exactly::of([shift[0], -shift[1]]))?);
         }
+        Ok(())
     }
 
     fn film(&mut self, sensor: &Rc<Plugin>) -> Result<Film, SceneError> {
@@ -285,22 +301,22 @@ impl Converter<'_> {
         {
             return Err(plugin.error(format!("a picture of {width} x {height} pixels cannot be rendered")));
         }
-        self.scene.film.set("size", super::super::import::list([width as i64, height as i64]));
+        let pixels = |side: f64| NonZeroU32::new(side as u32).unwrap_or(NonZeroU32::MIN);
+        self.scene.file.film.size = Some(Exactly([pixels(width), pixels(height)]));
         Ok(())
     }
 
     fn filter(&mut self, filter: Option<&Rc<Plugin>>) -> Result<(), SceneError> {
         let Some(filter) = filter else {
             // Mitsuba's default: a deviation of half a pixel.
-            self.scene.film.set("filter", Keys::of_type("gaussian").with("radius", 1.5));
-            return Ok(());
+            return self.set_filter(None, FilterEntry::Gaussian, 1.5);
         };
         filter.visited.set(true);
-        let (name, radius) = match filter.name.as_str() {
-            "box" => ("box", filter.number_or("radius", 0.5)?),
-            "tent" => ("tent", filter.number_or("radius", 1.0)?),
+        let (make, radius): (fn(FilterKeys) -> FilterEntry, f64) = match filter.name.as_str() {
+            "box" => (FilterEntry::Box, filter.number_or("radius", 0.5)?),
+            "tent" => (FilterEntry::Tent, filter.number_or("radius", 1.0)?),
             // Cut off at three deviations here, at four there.
-            "gaussian" => ("gaussian", 3.0 * filter.number_or("stddev", 0.5)?),
+            "gaussian" => (FilterEntry::Gaussian, 3.0 * filter.number_or("stddev", 0.5)?),
             other => {
                 let what = format!("rfilter `{other}`");
                 filter.without_effect(&["b", "c", "lobes", "radius", "stddev"]);
@@ -309,10 +325,24 @@ impl Converter<'_> {
                     &what,
                     "a gaussian of half a pixel's deviation is taken: filters have no negative parts here",
                 );
-                ("gaussian", 1.5)
+                (FilterEntry::Gaussian, 1.5)
             }
         };
-        self.scene.film.set("filter", Keys::of_type(name).with("radius", radius.clamp(0.5, 16.0)));
+        self.set_filter(Some(filter), make, radius.clamp(0.5, 16.0))
+    }
+
+    fn set_filter(
+        &mut self,
+        plugin: Option<&Rc<Plugin>>,
+        make: fn(FilterKeys) -> FilterEntry,
+        radius: f64,
+    ) -> Result<(), SceneError> {
+        let radius = Checked::of(radius);
+        let radius = match plugin {
+            Some(plugin) => Some(plugin.possible(radius)?),
+            None => radius.ok(),
+        };
+        self.scene.file.film.filter = Some(make(FilterKeys { radius }));
         Ok(())
     }
 }

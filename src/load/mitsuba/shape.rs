@@ -1,6 +1,7 @@
 //! Shapes.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -9,9 +10,9 @@ use super::emitter;
 use super::limits::{MOST_SHAPES, too_many_shapes};
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
-use crate::load::import::{
-    Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube,
-};
+use crate::load::file::shape::{self as shapes, ShapeEntry};
+use crate::load::file::value::Located;
+use crate::load::import::{Input, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube};
 use crate::load::memory;
 use crate::scene::Mesh;
 
@@ -70,11 +71,12 @@ impl Converter<'_> {
             return Ok(known.is_stored_once);
         }
         let copies = self.copies.get(&Rc::as_ptr(group)).copied().unwrap_or(1);
-        let (before, triangles) = (self.scene.shapes.len(), self.triangles);
+        let (before, triangles) = (self.scene.file.shape.len(), self.triangles);
         self.placed_shape(group, DAffine3::IDENTITY, 1)?;
-        let shapes = self.scene.shapes.split_off(before);
-        let gives_light = |shape: &Entry| shape.keys.text("material").is_some_and(|name| self.scene.gives_light(name));
-        let only_meshes = shapes.iter().all(|shape| shape.keys.text("type") == Some("mesh") && !gives_light(shape));
+        let shapes = self.scene.file.shape.split_off(before);
+        let gives_light = |shape: &ShapeEntry| shape.common().material.is_some_and(|name| self.scene.gives_light(&name.value));
+        let is_plain = |shape: &Located<ShapeEntry>| matches!(shape.value, ShapeEntry::Mesh(_)) && !gives_light(&shape.value);
+        let only_meshes = shapes.iter().all(is_plain);
         let is_stored_once = only_meshes && !shapes.is_empty() && pays_as_instances(copies, self.triangles - triangles);
         if !is_stored_once {
             self.triangles = triangles;
@@ -86,13 +88,14 @@ impl Converter<'_> {
     }
 
     /// Adds the groups that are stored once, in the order in which they were met.
-    pub fn finish_groups(&mut self) {
+    pub fn finish_groups(&mut self) -> Result<(), SceneError> {
         for key in std::mem::take(&mut self.group_order) {
             let Some(group) = self.groups.remove(&key).filter(|group| group.is_stored_once) else { continue };
             let StoredGroup { plugin, shapes, places, .. } = group;
             let name = if plugin.id.is_empty() { "group" } else { &plugin.id };
-            self.scene.add_instances(name, &plugin.place, shapes, &places);
+            plugin.possible(self.scene.add_instances(name, &plugin.at(), shapes, &places))?;
         }
+        Ok(())
     }
 
     /// How often instances at the top name each group.
@@ -110,7 +113,7 @@ impl Converter<'_> {
         let light = plugin.first_of("emitter").cloned();
         let light = light.map(|light| emitter::area_radiance(self, &light)).transpose()?.flatten();
         let within = bsdf.as_ref().map(|bsdf| bsdf.within).unwrap_or_default();
-        let textured = within.uses_texture || matches!(light, Some(super::input::Input::Texture(..)));
+        let textured = within.uses_texture || matches!(light, Some(Input::Texture(..)));
         let flip = plugin.flag("flip_normals", false)?;
         if within.has_bump_map && own.matrix3.determinant() < 0.0 {
             let instead = "it is seen as in a mirror; version 3.9.1 shows the back of what keeps its normals";
@@ -119,7 +122,7 @@ impl Converter<'_> {
         if within.uses_attribute && within.uses_bitmap {
             self.drop(plugin, "texture beside an attribute of a mesh", "its texture coordinates are those of the attribute");
         }
-        let Some((keys, map)) = self.geometry(
+        let Some((mut shape, map)) = self.geometry(
             plugin,
             (around, own),
             Looks { textured, flip, attributes: within.uses_attribute, bumped: within.has_relief },
@@ -130,24 +133,27 @@ impl Converter<'_> {
         let material = self.surface_material(plugin, bsdf.as_ref(), light);
         self.attributes = None;
         let material = material?;
-        let keys = self.placed(&map, keys.with("material", material));
-        if self.scene.shapes.len() >= MOST_SHAPES {
+        let common = shape.common_mut();
+        *common.material = Some(plugin.at().at(material));
+        *common.transform = self.transform(&map, plugin)?;
+        if self.scene.file.shape.len() >= MOST_SHAPES {
             return Err(too_many_shapes(&plugin.place));
         }
-        self.scene.shapes.push(Entry { place: plugin.place.clone(), keys });
+        self.scene.file.shape.push(plugin.at().at(shape));
         Ok(())
     }
 
-    /// Keys of the geometry and the transform that is left; None where there is nothing to render.
+    /// The geometry and the transform that is left; None where there is nothing to render.
     fn geometry(
         &mut self,
         plugin: &Rc<Plugin>,
         (around, own): (DAffine3, DAffine3),
         looks: Looks,
-    ) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+    ) -> Result<Option<(ShapeEntry, DAffine3)>, SceneError> {
         let map = around * own;
         let Looks { textured, flip, .. } = looks;
         let key = |name: &str| format!("({name}) {flip}");
+        let place = plugin.at();
         Ok(Some(match plugin.name.as_str() {
             "sphere" => self.sphere(plugin, map, looks)?,
             "rectangle" => {
@@ -158,24 +164,25 @@ impl Converter<'_> {
                     self.made_mesh(plugin, key("rectangle"), flip, map, square)?
                 } else if flip {
                     // The front follows edge_u × edge_v.
-                    (rectangle(DVec3::new(-1.0, -1.0, 0.0), v, u), map)
+                    (rectangle(plugin, v, u)?, map)
                 } else {
-                    (rectangle(DVec3::new(-1.0, -1.0, 0.0), u, v), map)
+                    (rectangle(plugin, u, v)?, map)
                 }
             }
             "cube" => {
                 if textured || flip {
                     self.made_mesh(plugin, key("cube"), flip, map, unit_cube)?
                 } else {
-                    let keys = Keys::of_type("box").with("min", DVec3::NEG_ONE).with("max", DVec3::ONE);
+                    let keys = plugin.possible(shapes::cuboid::Keys::of(DVec3::NEG_ONE, DVec3::ONE, &place))?;
                     self.counted(plugin, 12)?;
-                    (keys, map)
+                    (ShapeEntry::Box(keys), map)
                 }
             }
             "disk" => {
                 if !textured && is_uniform(&map) {
                     let normal = if flip { DVec3::NEG_Z } else { DVec3::Z };
-                    (Keys::of_type("disk").with("center", DVec3::ZERO).with("normal", normal).with("radius", 1.0), map)
+                    let keys = plugin.possible(shapes::disk::Keys::of(DVec3::ZERO, normal, 1.0, &place))?;
+                    (ShapeEntry::Disk(keys), map)
                 } else {
                     self.approximate(plugin, "shape `disk` with a texture or scaled unevenly", "128 triangles");
                     self.made_mesh(plugin, key("disk"), flip, map, disk)?
@@ -190,13 +197,15 @@ impl Converter<'_> {
                 };
                 let (x, y) = along.any_orthonormal_pair();
                 if is_uniform(&map) && !flip && !looks.bumped {
-                    let tube = Keys::of_type("cylinder").with("radius", radius);
+                    let tube = |from: DVec3, to: DVec3| {
+                        plugin.possible(shapes::cylinder::Keys::of(from, to, radius, &place)).map(ShapeEntry::Cylinder)
+                    };
                     if !textured {
-                        return Ok(Some((tube.with("from", p0).with("to", p1), map)));
+                        return Ok(Some((tube(p0, p1)?, map)));
                     }
                     // Texture coordinates go round from x towards y there, and from x away from y here.
                     let own = DAffine3 { matrix3: DMat3::from_cols(x, -y, along), translation: p0 };
-                    return Ok(Some((tube.with("from", DVec3::ZERO).with("to", DVec3::Z * axis.length()), map * own)));
+                    return Ok(Some((tube(DVec3::ZERO, DVec3::Z * axis.length())?, map * own)));
                 }
                 self.approximate(
                     plugin,
@@ -224,7 +233,7 @@ impl Converter<'_> {
         }))
     }
 
-    fn sphere(&mut self, plugin: &Rc<Plugin>, map: DAffine3, looks: Looks) -> Result<(Keys, DAffine3), SceneError> {
+    fn sphere(&mut self, plugin: &Rc<Plugin>, map: DAffine3, looks: Looks) -> Result<(ShapeEntry, DAffine3), SceneError> {
         let Looks { textured, bumped, .. } = looks;
         let center = plugin.vector("center")?.unwrap_or(DVec3::ZERO);
         let radius = plugin.number_or("radius", 1.0)?;
@@ -240,13 +249,14 @@ impl Converter<'_> {
             evened(&map)
         };
         if !flip && !bumped {
+            let ball = |center: DVec3| plugin.possible(shapes::sphere::Keys::of(center, radius)).map(ShapeEntry::Sphere);
             if !textured {
-                return Ok((Keys::of_type("sphere").with("center", center).with("radius", radius), map));
+                return Ok((ball(center)?, map));
             }
             // Texture coordinates turn about +Z there and about +Y here.
             let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_Z, DVec3::NEG_X);
             let own = DAffine3::from_translation(center) * DAffine3::from_mat3(turn);
-            return Ok((Keys::of_type("sphere").with("center", DVec3::ZERO).with("radius", radius), map * own));
+            return Ok((ball(DVec3::ZERO)?, map * own));
         }
         self.approximate(
             plugin,
@@ -265,28 +275,24 @@ impl Converter<'_> {
         flip: bool,
         map: DAffine3,
         make: impl FnOnce() -> Mesh,
-    ) -> Result<(Keys, DAffine3), SceneError> {
-        let file = match self.meshes.get(&key) {
-            Some(file) => file.clone(),
+    ) -> Result<(ShapeEntry, DAffine3), SceneError> {
+        let mesh = match self.meshes.get(&key) {
+            Some(mesh) => mesh.clone(),
             None => {
                 let mut mesh = make();
                 if flip {
                     turn_inside_out(&mut mesh);
                 }
-                let file = self.scene.hold_mesh(&plugin.name, mesh);
-                self.meshes.insert(key, file.clone());
-                file
+                self.meshes.entry(key).or_insert(Arc::new(mesh)).clone()
             }
         };
-        self.mesh_keys(plugin, file, map)
+        self.mesh_entry(plugin, mesh, map)
     }
 
-    /// The keys of a shape of this mesh, whose triangles are counted.
-    pub fn mesh_keys(&mut self, plugin: &Plugin, file: FileReference, map: DAffine3) -> Result<(Keys, DAffine3), SceneError> {
-        let mesh = self.scene.mesh(&file).map(|mesh| (mesh.faces.len(), mesh.smooth));
-        let (faces, smooth) = mesh.unwrap_or((0, false));
-        self.counted(plugin, faces as u64)?;
-        Ok((Keys::of_type("mesh").with("file", file).with("smooth", smooth), map))
+    /// A shape of this mesh, whose triangles are counted.
+    pub fn mesh_entry(&mut self, plugin: &Plugin, mesh: Arc<Mesh>, map: DAffine3) -> Result<(ShapeEntry, DAffine3), SceneError> {
+        self.counted(plugin, mesh.faces.len() as u64)?;
+        Ok((ShapeEntry::Mesh(shapes::mesh::Keys::of(mesh, &plugin.at())), map))
     }
 
     /// Instances are copies: what they take must be there.
@@ -317,8 +323,10 @@ pub struct Looks {
     pub bumped: bool,
 }
 
-fn rectangle(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Keys {
-    Keys::of_type("rectangle").with("corner", corner).with("edge_u", edge_u).with("edge_v", edge_v)
+/// The square from −1 to 1 by the order of its edges.
+fn rectangle(plugin: &Plugin, edge_u: DVec3, edge_v: DVec3) -> Result<ShapeEntry, SceneError> {
+    let corner = DVec3::new(-1.0, -1.0, 0.0);
+    plugin.possible(shapes::rectangle::Keys::of([corner, edge_u, edge_v], &plugin.at())).map(ShapeEntry::Rectangle)
 }
 
 /// The map that turns as this one does and scales as it scales x.

@@ -8,10 +8,13 @@ use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::colour::Role;
 use super::converter::Converter;
-use super::input::{Input, Texels};
+use super::input::Texels;
 use super::plugin::{Plugin, PropertyValue, Spectrum};
 use crate::load::error::SceneError;
-use crate::load::import::{Entry, Keys};
+use crate::load::file::colour::Rgb;
+use crate::load::file::syntax::{CheckerEntry, TextureEntry};
+use crate::load::file::value::{Exactly, Number};
+use crate::load::import::Input;
 
 impl Converter<'_> {
     /// A colour of light that leaves something: any amount.
@@ -157,7 +160,7 @@ impl Converter<'_> {
     }
 
     /// The map of texture coordinates as scale, rotation and offset.
-    pub fn placed_texture(&mut self, plugin: &Plugin, mut keys: Keys, map: DAffine2) -> Keys {
+    pub fn place_texture(&mut self, plugin: &Plugin, entry: &mut TextureEntry, map: DAffine2) -> Result<(), SceneError> {
         let (x, y) = (map.matrix2.x_axis, map.matrix2.y_axis);
         if x.dot(y).abs() > 1e-9 * x.length() * y.length() {
             self.approximate(plugin, "shear of texture coordinates", "they are turned and scaled alone");
@@ -166,16 +169,17 @@ impl Converter<'_> {
         let is_straight = x.y == 0.0;
         let scale =
             if is_straight { [x.x, y.y] } else { [x.length(), map.matrix2.determinant() / x.length().max(f64::MIN_POSITIVE)] };
-        if scale != [1.0; 2] {
-            keys.set("scale", scale);
+        if let (Some(written), true) = (entry.scale_mut(), scale != [1.0; 2]) {
+            *written = Some(plugin.possible(Exactly::of(scale))?);
         }
+        let common = entry.common_mut();
         if !is_straight {
-            keys.set("rotation", x.y.atan2(x.x).to_degrees());
+            *common.rotation = Some(plugin.possible(Number::of(x.y.atan2(x.x).to_degrees()))?);
         }
         if map.translation != DVec2::ZERO {
-            keys.set("offset", map.translation.to_array());
+            *common.offset = Some(plugin.possible(Exactly::of(map.translation.to_array()))?);
         }
-        keys
+        Ok(())
     }
 
     fn checkerboard(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels, before: DAffine2) -> Result<Input, SceneError> {
@@ -195,19 +199,27 @@ impl Converter<'_> {
         }
         // Two squares along each unit.
         let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)? * before;
-        let keys = Keys::of_type("checker")
-            .with("a", Input::Constant(colours[0]).value())
-            .with("b", Input::Constant(colours[1]).value());
-        let keys = self.placed_texture(plugin, keys, map);
-        Ok(self.add_texture(plugin, "checkerboard", keys))
+        let mut entry = TextureEntry::Checker(CheckerEntry {
+            name: plugin.at().at(String::new()),
+            a: plugin.possible(Rgb::of(colours[0]))?,
+            b: plugin.possible(Rgb::of(colours[1]))?,
+            scale: None,
+            rotation: None,
+            offset: None,
+            second_uvs: None,
+            bends_by_first_uvs: None,
+            times: None,
+        });
+        self.place_texture(plugin, &mut entry, map)?;
+        Ok(self.add_texture(plugin, "checkerboard", entry))
     }
 
-    pub fn add_texture(&mut self, plugin: &Plugin, otherwise: &str, keys: Keys) -> Input {
+    /// Adds a texture, which it gives a name.
+    pub fn add_texture(&mut self, plugin: &Plugin, otherwise: &str, mut entry: TextureEntry) -> Input {
         let wanted = if plugin.id.is_empty() { otherwise } else { &plugin.id };
         let name = self.scene.free_texture_name(wanted);
-        let mut named = Keys::new().with("name", name.as_str());
-        named.0.extend(keys.0);
-        self.scene.textures.push(Entry { place: plugin.place.clone(), keys: named });
+        *entry.common_mut().name = plugin.at().at(name.clone());
+        self.scene.file.texture.push(entry);
         Input::Texture(name, DVec3::ONE)
     }
 }

@@ -5,12 +5,12 @@ use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 use super::number::parse_number;
 use super::plugin::error_at;
 use crate::load::error::SceneError;
-use crate::load::import::Place;
+use crate::load::place::Origin;
 
 type Attributes<'g> = dyn FnMut(&str) -> Result<Option<String>, SceneError> + 'g;
 
 /// The map of one step.
-pub fn step(place: &Place, tag: &str, get: &mut Attributes) -> Result<DAffine3, SceneError> {
+pub fn step(place: &Origin, tag: &str, get: &mut Attributes) -> Result<DAffine3, SceneError> {
     match tag {
         "translate" => Ok(DAffine3::from_translation(vector(place, get, 0.0)?)),
         "scale" => {
@@ -57,7 +57,7 @@ fn rotation(axis: DVec3, angle: f64) -> DMat3 {
 }
 
 /// `x`, `y` and `z`, or `value` with one number or three.
-pub fn vector(place: &Place, get: &mut Attributes, default: f64) -> Result<DVec3, SceneError> {
+pub fn vector(place: &Origin, get: &mut Attributes, default: f64) -> Result<DVec3, SceneError> {
     if let Some(value) = get("value")? {
         let numbers = numbers(place, &value)?;
         return match numbers[..] {
@@ -76,7 +76,7 @@ pub fn vector(place: &Place, get: &mut Attributes, default: f64) -> Result<DVec3
     Ok(vector)
 }
 
-fn triple(place: &Place, text: &str) -> Result<DVec3, SceneError> {
+fn triple(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
     match numbers(place, text)?[..] {
         [x, y, z] => Ok(DVec3::new(x, y, z)),
         _ => Err(error_at(place, format!("expected three numbers, found `{text}`"))),
@@ -84,7 +84,7 @@ fn triple(place: &Place, text: &str) -> Result<DVec3, SceneError> {
 }
 
 /// Numbers separated by commas or blanks.
-pub fn numbers(place: &Place, text: &str) -> Result<Vec<f64>, SceneError> {
+pub fn numbers(place: &Origin, text: &str) -> Result<Vec<f64>, SceneError> {
     let words = text.split(|c: char| c == ',' || c.is_whitespace()).filter(|word| !word.is_empty());
     words.map(|word| parse_number(place, word)).collect()
 }

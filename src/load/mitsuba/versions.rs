@@ -5,6 +5,7 @@ use std::cell::Cell;
 use glam::DAffine3;
 
 use super::plugin::{Plugin, Property, PropertyValue};
+use crate::load::place::Origin;
 
 /// Elements of versions before 0.5.
 pub fn modern_kind(tag: &str) -> &str {
@@ -60,7 +61,7 @@ pub fn old_texture_coordinates(plugin: &mut Plugin) {
     plugin.properties.push(Property {
         name: "to_uv".to_owned(),
         value: PropertyValue::Transform(DAffine3::from_scale(scale) * DAffine3::from_translation(offset)),
-        place: plugin.place.clone(),
+        place: Origin::clone(&plugin.place),
         used: Cell::new(false),
     });
 }

@@ -1,7 +1,14 @@
 //! Shapes as primitives in world space: a file for each shape.
 
+mod cuboid;
+mod cylinder;
+mod disk;
 mod element;
+mod mesh;
 mod placement;
+mod plane;
+mod rectangle;
+mod sphere;
 
 use glam::{DAffine3, DVec3, Vec3};
 
@@ -13,10 +20,9 @@ use crate::shader::shared::{Constant, Constants};
 use element::Element;
 pub use placement::Placement;
 
-/// A module for each row of the table of shapes, and what chooses among them and their primitives.
+/// What chooses among the rows of the table of shapes, which are a module each, and their primitives.
 macro_rules! modules {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
-        $(mod $module;)*
         $($(pub use $module::$primitive;)?)*
 
         /// Hands over a shape's primitives, each with what else its texture coordinates and normals need, and the number of its face.

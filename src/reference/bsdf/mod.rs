@@ -4,23 +4,31 @@
 
 pub mod blend;
 mod blend_weight;
+mod conductor;
 mod cosine_power;
 mod dielectric;
+mod diffuse;
 mod fresnel;
+mod glass;
+mod glossy;
 mod hemisphere;
 mod lobe;
 mod lookup;
 mod microfacet;
+mod mirror;
 mod mixture;
+mod null;
+mod phong;
+mod phong_glass;
+mod plastic;
+mod principled;
+mod rough_glass;
+mod rough_plastic;
+mod rough_thin_glass;
 mod scatter;
 mod sheen;
+mod thin_glass;
 mod view;
-
-/// A module a lobe.
-macro_rules! lobe_modules {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident)* })*) => { $($(mod $file;)*)* };
-}
-crate::scene::material::material_table!(lobe_modules);
 
 pub use lookup::Lookup;
 pub use mixture::Bsdf;

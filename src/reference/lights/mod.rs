@@ -4,7 +4,13 @@
 //! whichever of them drew it.
 
 mod delta;
+mod directional;
+mod environment;
 mod outside;
+mod point;
+mod projector;
+mod sky;
+mod spot;
 mod thrown_picture;
 
 use std::collections::HashMap;
@@ -32,13 +38,10 @@ pub use outside::Outside;
 /// Relative amount by which a shadow segment stops short of the light's point, so that what the light lies upon does not block it.
 const SHADOW_MARGIN: f64 = 1e-12;
 
-/// A module for each row of the table of lights, and what chooses among them.
+/// What chooses among the rows of the table of lights, which are a module each.
 macro_rules! modules {
     (environment { $($environment:ident($_outside:ident) $environment_module:ident $_switch:ident $($_needed:ident)*,)* }
      delta { $($delta:ident($_type:ident) $delta_module:ident $_number:ident $($_delta_needed:ident)*,)* }) => {
-        $(mod $environment_module;)*
-        $(mod $delta_module;)*
-
         fn outside_light(light: &Light) -> Option<Outside> {
             match light {
                 $(Light::$environment(light) => Some($environment_module::new(light)),)*

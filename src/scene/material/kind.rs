@@ -18,7 +18,7 @@ pub type MaterialId = usize;
 /// - the lobes that it scatters by, each with its variant of [`LobeKind`] and type in `reference::bsdf`, the name of its files there
 ///   and in `shaders/shading/bsdf/`, the name of its number and of its switch in shaders, and its [`LobeSupport`].
 ///
-/// `material_table!(what)` calls `what!` with all rows. Modules, dispatch and constants elsewhere are made from them.
+/// `material_table!(what)` calls `what!` with all rows. Dispatch and constants elsewhere are made from them; modules are declared where they stand.
 macro_rules! material_table {
     ($what:ident) => {
         $what! {

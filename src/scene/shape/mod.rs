@@ -1,6 +1,13 @@
 //! Surfaces, and the table of shapes.
 
+mod cuboid;
+mod cylinder;
+mod disk;
+mod mesh;
 mod model;
+mod plane;
+mod rectangle;
+mod sphere;
 
 use std::sync::Arc;
 
@@ -13,7 +20,7 @@ use super::transform::Transform;
 pub(super) use model::Extent;
 use model::ShapeModel;
 
-/// The table of shapes: a row for each. From these rows every layer makes its list of modules and what chooses among them, so a shape is
+/// The table of shapes: a row for each. From these rows every layer makes what chooses among its modules, so a shape is
 /// a row here and a file of its module's name wherever it is represented: `scene/shape` is what it is, `load/file/shape` reads it,
 /// `packed/shape` packs it, `reference/shape` intersects and samples it in f64.
 ///
@@ -37,8 +44,6 @@ pub(crate) use shape_table;
 
 macro_rules! geometries {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
-        $(mod $module;)*
-
         /// A surface in its own space.
         #[derive(Debug, Clone)]
         pub enum Geometry {

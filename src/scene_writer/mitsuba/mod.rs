@@ -14,34 +14,24 @@ use toml::Table;
 
 use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
 use self::xml::{Element, Xml};
+use super::WrittenScene;
 use super::scene_file::scene_text;
 use crate::load::SceneError;
 use crate::load::file::writer::SideFiles;
 use crate::scene::{ImportReport, Scene};
-
-/// A scene of Mitsuba, and the files that it names beside those on disk.
-#[derive(Debug)]
-pub struct WrittenMitsuba {
-    /// XML
-    pub text: String,
-    /// Where they are to be written, with their contents.
-    pub files: Vec<(PathBuf, Vec<u8>)>,
-    /// What is not exact.
-    pub report: ImportReport,
-}
 
 /// A scene as one of Mitsuba that is to be written to `target`; meshes and pictures that come from no file lie in the folder `NAME.files` beside
 /// it. `name` is how reports call the scene.
 ///
 /// # Errors
 /// None that is known: what cannot be said there is in the report.
-pub fn as_mitsuba(scene: &Scene, name: &str, target: &Path) -> Result<WrittenMitsuba, SceneError> {
+pub fn as_mitsuba(scene: &Scene, name: &str, target: &Path) -> Result<WrittenScene, SceneError> {
     let (text, files) = scene_text(scene, target);
     let tables: Table = text.parse().map_err(|error: toml::de::Error| SceneError::in_file(name, error.message().to_owned()))?;
     let mut writer =
         Writer { name, scene: &tables, original: scene, files, xml: Xml::default(), report: ImportReport::default() };
     writer.all()?;
-    Ok(WrittenMitsuba { text: writer.xml.finish(), files: writer.files.into_files(), report: writer.report })
+    Ok(WrittenScene { text: writer.xml.finish(), files: writer.files.into_files(), report: writer.report })
 }
 
 struct Writer<'w> {

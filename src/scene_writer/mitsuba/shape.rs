@@ -6,7 +6,8 @@ use toml::{Table, Value};
 use super::Writer;
 use super::keys::{Keys, as_number, entries, flag, number, numbers, text, vector};
 use super::xml::{Element, matrix};
-use crate::load::{SceneError, write_ply};
+use crate::load::SceneError;
+use crate::load::file::writer::ply;
 use crate::scene::Mesh;
 
 /// Half the side of the rectangle that stands for an infinite plane.
@@ -141,7 +142,7 @@ impl Writer<'_> {
             if mesh.smooth && mesh.normals.is_empty() {
                 mesh.compute_smooth_normals();
             }
-            let name = self.files.add_file(&format!("{}.ply", file_of(place)), write_ply(&mesh));
+            let name = self.files.add_file(&format!("{}.ply", file_of(place)), ply(&mesh, None));
             return Ok(Element::new("shape", "ply").string("filename", &name).boolean("face_normals", !mesh.smooth));
         };
         let lower = file.to_ascii_lowercase();

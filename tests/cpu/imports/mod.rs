@@ -11,7 +11,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::PathBuf;
 
-use gpt::load::{LoadOptions, SceneError, as_scene_file, load_with};
+use gpt::load::{LoadOptions, SceneError, load_with};
 use gpt::scene::Scene;
 use gpt::{DeviceChoice, RenderOptions};
 
@@ -46,12 +46,7 @@ impl Folder {
     /// Writes the import as a scene file and reads that.
     fn written(&self, name: &str) -> Scene {
         let target = self.path("written.toml");
-        let written = as_scene_file(&self.path(name), &target, &LoadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
-        for (path, bytes) in &written.files {
-            fs::create_dir_all(path.parent().expect("it lies in a folder")).expect("a folder");
-            fs::write(path, bytes).expect("it is written");
-        }
-        fs::write(&target, &written.text).expect("it is written");
+        gpt::scene_writer::save_scene(&self.valid(name), &target).unwrap_or_else(|error| panic!("{error}"));
         self.valid("written.toml")
     }
 }

@@ -1,7 +1,5 @@
 //! `type = "directional"`
 
-use std::ops::Range;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,24 +10,25 @@ use crate::load::file::keyframes::{DirectionalKeyEntry, InterpolationName, Writt
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Vector};
 use crate::load::file::writer::{Writer, colour, direction, line};
+use crate::load::place::Place;
 use crate::scene::DirectionalLight;
 use crate::scene::animation::LightTrack;
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "DirectionalLight", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
     /// The way the light travels.
-    direction: Located<Vector>,
+    pub direction: Located<Vector>,
     /// On a surface that faces the light, W·m⁻².
-    irradiance: Rgb<NonNegative>,
+    pub irradiance: Rgb<NonNegative>,
     /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
     #[schemars(extend("minItems" = 1))]
-    keyframes: Option<Located<Vec<Located<DirectionalKeyEntry>>>>,
+    pub keyframes: Option<Located<Vec<Located<DirectionalKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.
-    interpolation: Option<Located<InterpolationName>>,
+    pub interpolation: Option<Located<InterpolationName>>,
     /// A `[[node]]` that takes the light along at frames.
-    node: Option<Located<String>>,
+    pub node: Option<Located<String>>,
 }
 
 impl LightKeys for Keys {
@@ -38,7 +37,7 @@ impl LightKeys for Keys {
     const EXAMPLES: &'static [&'static str] = &["direction = [1, -2, -0.7]\nirradiance = [0.5, 0.6, 0.7]"];
     const STRENGTH: &'static str = "irradiance";
 
-    fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<DirectionalLight, SceneError> {
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &Place) -> Result<DirectionalLight, SceneError> {
         Ok(DirectionalLight { direction: resolver.direction(&self.direction)?, irradiance: self.irradiance.0 })
     }
 

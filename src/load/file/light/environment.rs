@@ -1,6 +1,5 @@
 //! `type = "environment"`
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use schemars::JsonSchema;
@@ -8,44 +7,47 @@ use serde::Deserialize;
 
 use super::keys::LightKeys;
 use crate::load::environment_map;
-use crate::load::error::{SceneError, show};
+use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{EnvironmentKeyEntry, InterpolationName, WrittenLightTrack};
+use crate::load::file::reference::FileOr;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number};
 use crate::load::file::writer::{Writer, colour, line, number};
+use crate::load::image_file::EmbeddedFile;
+use crate::load::place::Place;
 use crate::picture_file::Envelope;
 use crate::scene::animation::LightTrack;
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
 
 /// Radiance from outside the scene: either `radiance` or `file`.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "EnvironmentLight")]
 #[schemars(extend("allOf" = [{ "oneOf": [{ "required": ["radiance"] }, { "required": ["file"] }] }], "dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
     /// The same radiance from everywhere.
-    radiance: Option<Located<Rgb<NonNegative>>>,
+    pub radiance: Option<Located<Rgb<NonNegative>>>,
     /// A lat-long map, EXR or HDR: u = atan2(x, −z)/2π (mod 1), v = acos(y)/π from the top row, interpolated bilinearly.
-    file: Option<Located<String>>,
+    pub file: Option<Located<FileOr<EmbeddedFile>>>,
     /// Factor of the radiance, 1 when left out.
-    scale: Option<Located<Checked<NonNegative>>>,
+    pub scale: Option<Located<Checked<NonNegative>>>,
     /// Degrees about +Y, counter-clockwise seen from above.
-    rotate: Option<Number>,
+    pub rotate: Option<Number>,
     /// Exchanges the map's left and right before it is turned; false when left out.
-    mirror: Option<Located<bool>>,
+    pub mirror: Option<Located<bool>>,
     /// Where the first and the last row of the map lie: half a row from the poles when left out.
-    rows: Option<Rows>,
+    pub rows: Option<Rows>,
     /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
     #[schemars(extend("minItems" = 1))]
-    keyframes: Option<Located<Vec<Located<EnvironmentKeyEntry>>>>,
+    pub keyframes: Option<Located<Vec<Located<EnvironmentKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.
-    interpolation: Option<Located<InterpolationName>>,
+    pub interpolation: Option<Located<InterpolationName>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-enum Rows {
+pub enum Rows {
     /// Half a row from the poles: each row covers as much of the angle.
     Inside,
     /// On the poles, as in Mitsuba.
@@ -62,7 +64,7 @@ impl LightKeys for Keys {
     ];
     const STRENGTH: &'static str = "radiance";
 
-    fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
+    fn resolve(&self, resolver: &mut Resolver<'_>, span: &Place) -> Result<Environment, SceneError> {
         let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
         let rotation_degrees = self.rotate.map_or(0.0, |rotate| rotate.0);
         let mirrored = self.mirror.as_ref().is_some_and(|mirror| mirror.value);
@@ -70,7 +72,7 @@ impl LightKeys for Keys {
             (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
             (None, Some(file)) => return self.map(resolver, file, (scale, rotation_degrees, mirrored)),
             (Some(radiance), Some(_)) => {
-                return Err(resolver.error(&radiance.span, "an environment has either `radiance` or `file`"));
+                return Err(resolver.error(&radiance.place, "an environment has either `radiance` or `file`"));
             }
             (None, None) => return Err(resolver.error(span, "an environment needs the key `radiance` or `file`")),
         };
@@ -81,7 +83,7 @@ impl LightKeys for Keys {
         let keyframes = self.keyframes.as_ref();
         let mut of_keys = keyframes.iter().flat_map(|keys| &keys.value).filter_map(|entry| entry.value.radiance.as_ref());
         if let Some(radiance) = of_keys.next().filter(|_| self.radiance.is_none()) {
-            return Err(resolver.error(&radiance.span, "only keyframes of an environment with `radiance` state `radiance`"));
+            return Err(resolver.error(&radiance.place, "only keyframes of an environment with `radiance` state `radiance`"));
         }
         let interpolation = self.interpolation.as_ref();
         let mut track = resolver.light_track(WrittenLightTrack { keyframes, interpolation, node: None })?;
@@ -122,22 +124,36 @@ impl From<Rows> for MapRows {
 }
 
 impl Keys {
+    /// The same radiance from everywhere.
+    pub fn constant(radiance: Located<Rgb<NonNegative>>) -> Self {
+        Self {
+            radiance: Some(radiance),
+            file: None,
+            scale: None,
+            rotate: None,
+            mirror: None,
+            rows: None,
+            keyframes: None,
+            interpolation: None,
+        }
+    }
+
     fn map(
         &self,
         resolver: &mut Resolver<'_>,
-        file: &Located<String>,
+        file: &Located<FileOr<EmbeddedFile>>,
         (scale, rotation_degrees, mirrored): (f64, f64, bool),
     ) -> Result<Environment, SceneError> {
         let (image, integer_bits) = resolver.image_and_bits(file, None)?;
-        let path = resolver.path(&file.value);
-        let hints = resolver.hints(&path, None);
+        let source = resolver.picture_source(&file.value);
+        let hints = resolver.hints(&source, None);
         for note in environment_map::notes(integer_bits, &hints) {
-            resolver.scene.warnings.push(format!("{}: {note}", show(&path)));
+            resolver.scene.warnings.push(format!("{source}: {note}"));
         }
         // Whoever says where rows lie does not ask the file.
         let asks = self.rows.is_none() || hints.envelope == Some(Envelope::Cube);
         let converted = if asks { environment_map::converted(&image, &hints) } else { Ok(None) };
-        let converted = converted.map_err(|reason| resolver.error(&file.span, format!("{}: {reason}", show(&path))))?;
+        let converted = converted.map_err(|reason| resolver.error(&file.place, format!("{source}: {reason}")))?;
         let (image, rows, turned) = match converted {
             Some(map) => (Arc::new(map.image), map.rows, map.rotation_degrees),
             None => (image, self.rows.map_or(MapRows::Inside, MapRows::from), 0.0),
@@ -155,7 +171,7 @@ impl Keys {
             && texels.iter().any(|texel| texel.max_element() > LARGEST as f32)
         {
             let message = format!("the map's radiance times {scale} is too large: more than 1e18");
-            return Err(resolver.error(&written.span, message));
+            return Err(resolver.error(&written.place, message));
         }
         let scaled =
             Arc::new(ImageData { texels: texels.into(), width: image.width, height: image.height, has_alpha: image.has_alpha });

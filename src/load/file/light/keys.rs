@@ -1,10 +1,9 @@
 //! What every type of light gives.
 
-use std::ops::Range;
-
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::writer::Writer;
+use crate::load::place::Place;
 use crate::scene::animation::LightTrack;
 
 /// What a light's keys mean.
@@ -19,7 +18,7 @@ pub trait LightKeys {
     const STRENGTH: &'static str;
 
     /// The light; `span` is its whole table.
-    fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Self::Light, SceneError>;
+    fn resolve(&self, resolver: &mut Resolver<'_>, span: &Place) -> Result<Self::Light, SceneError>;
 
     /// What it is at frames, of a light that is to be the scene's next one; None where that is always the same.
     fn track(&self, _: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {

@@ -1,6 +1,12 @@
 //! `[[light]]`: a file for each light that is not a surface, with the keys it is written by.
 
+pub mod directional;
+pub mod environment;
 mod keys;
+pub mod point;
+pub mod projector;
+pub mod sky;
+pub mod spot;
 
 use std::sync::Arc;
 
@@ -8,6 +14,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use self::keys::LightKeys;
+use super::reference::TextureName;
 use super::resolver::Resolver;
 use super::value::Located;
 use super::writer::Writer;
@@ -19,12 +26,10 @@ use crate::scene::light::light_table;
 /// The entries of a scene file, by the rows of the table of lights.
 macro_rules! entries {
     ($($group:ident { $($variant:ident($type:ident) $module:ident $switch:ident $($needed:ident)*,)* })*) => {
-        $($(mod $module;)*)*
-
         /// A light that is not a surface. Surfaces emit through their material.
-        #[derive(Debug, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case")]
-        #[schemars(tag = "type")]
+        #[derive(Debug, Clone, Deserialize, JsonSchema)]
+        #[serde(rename = "key:type", rename_all = "snake_case")]
+        #[schemars(tag = "type", rename = "LightEntry")]
         pub enum LightEntry {
             $($($variant($module::Keys),)*)*
         }
@@ -40,7 +45,7 @@ macro_rules! entries {
         impl Located<LightEntry> {
             fn resolve(&self, resolver: &mut Resolver<'_>) -> Result<Light, SceneError> {
                 match &self.value {
-                    $($(LightEntry::$variant(keys) => keys.resolve(resolver, &self.span).map(Light::$variant),)*)*
+                    $($(LightEntry::$variant(keys) => keys.resolve(resolver, &self.place).map(Light::$variant),)*)*
                 }
             }
         }
@@ -61,6 +66,31 @@ macro_rules! entries {
 }
 light_table!(entries);
 
+impl LightEntry {
+    pub fn is_environment(&self) -> bool {
+        matches!(self, Self::Environment(_) | Self::Sky(_))
+    }
+
+    /// The node that takes the light along; None of lights without a place.
+    pub fn node_mut(&mut self) -> Option<&mut Option<Located<String>>> {
+        match self {
+            Self::Point(keys) => Some(&mut keys.node),
+            Self::Spot(keys) => Some(&mut keys.node),
+            Self::Directional(keys) => Some(&mut keys.node),
+            Self::Environment(_) | Self::Sky(_) | Self::Projector(_) => None,
+        }
+    }
+
+    /// The texture whose picture the light throws; None of lights that throw none.
+    pub fn texture_mut(&mut self) -> Option<&mut Located<TextureName>> {
+        match self {
+            Self::Spot(keys) => keys.texture.as_mut(),
+            Self::Projector(keys) => keys.texture.as_mut(),
+            Self::Environment(_) | Self::Sky(_) | Self::Point(_) | Self::Directional(_) => None,
+        }
+    }
+}
+
 /// Name of the type, and keys as TOML, of examples of every light.
 pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
     ["environment", "delta"].into_iter().flat_map(examples_of)
@@ -79,7 +109,7 @@ impl Resolver<'_> {
         for entry in written {
             let light = entry.resolve(self).and_then(|light| {
                 if light.is_environment() && self.scene.lights.iter().any(Light::is_environment) {
-                    return Err(self.error(&entry.span, "a scene has one environment or sky, this is the second"));
+                    return Err(self.error(&entry.place, "a scene has one environment or sky, this is the second"));
                 }
                 Ok(light)
             });
@@ -98,7 +128,7 @@ pub fn delta_examples() -> Vec<(&'static str, Light)> {
     let load = |(name, light)| {
         let text = format!("camera = {{ position = [0, 0, 1], look_at = [0, 0, 0], vfov = 40 }}\n{light}");
         // The file that an environment names is not there.
-        let scene = super::load_toml_str(&text, "example", std::path::Path::new("no-folder")).ok()?;
+        let scene = crate::load::load_toml_str(&text, "example", std::path::Path::new("no-folder")).ok()?;
         Some((name, scene.lights.into_iter().find(|light| light.delta().is_some())?))
     };
     let lights: Vec<(&str, Light)> = examples().filter_map(load).collect();

@@ -1,7 +1,5 @@
 //! `type = "point"`
 
-use std::ops::Range;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,23 +10,24 @@ use crate::load::file::keyframes::{InterpolationName, PointKeyEntry, WrittenLigh
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Vector, vector};
 use crate::load::file::writer::{self, Writer, colour, line};
+use crate::load::place::Place;
 use crate::scene::PointLight;
 use crate::scene::animation::LightTrack;
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "PointLight", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
-    position: Vector,
+    pub position: Vector,
     /// W·sr⁻¹
-    intensity: Rgb<NonNegative>,
+    pub intensity: Rgb<NonNegative>,
     /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
     #[schemars(extend("minItems" = 1))]
-    keyframes: Option<Located<Vec<Located<PointKeyEntry>>>>,
+    pub keyframes: Option<Located<Vec<Located<PointKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.
-    interpolation: Option<Located<InterpolationName>>,
+    pub interpolation: Option<Located<InterpolationName>>,
     /// A `[[node]]` that takes the light along at frames.
-    node: Option<Located<String>>,
+    pub node: Option<Located<String>>,
 }
 
 impl LightKeys for Keys {
@@ -37,7 +36,7 @@ impl LightKeys for Keys {
     const EXAMPLES: &'static [&'static str] = &["position = [-2, 3, 2]\nintensity = [6, 5, 4]"];
     const STRENGTH: &'static str = "intensity";
 
-    fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<PointLight, SceneError> {
+    fn resolve(&self, _: &mut Resolver<'_>, _: &Place) -> Result<PointLight, SceneError> {
         Ok(PointLight { position: vector(self.position), intensity: self.intensity.0 })
     }
 

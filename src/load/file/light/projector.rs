@@ -1,7 +1,5 @@
 //! `type = "projector"`
 
-use std::ops::Range;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -9,28 +7,30 @@ use super::keys::LightKeys;
 use super::spot::up_across;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
+use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, FieldOfView, Located, NonNegative, Positive, Vector, vector};
 use crate::load::file::writer::{self, Writer, colour, direction, line, number};
+use crate::load::place::Place;
 use crate::scene::{Projector, TextureKind};
 
 /// A light from one point that throws a rectangular picture.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "ProjectorLight")]
 pub struct Keys {
-    position: Vector,
-    direction: Located<Vector>,
+    pub position: Vector,
+    pub direction: Located<Vector>,
     /// Where the picture's upper edge is; [0, 1, 0] when left out.
-    up: Option<Located<Vector>>,
+    pub up: Option<Located<Vector>>,
     /// W·m⁻² where the texture is white, on a plane at distance 1 that faces the projector.
-    irradiance: Rgb<NonNegative>,
+    pub irradiance: Rgb<NonNegative>,
     /// Degrees from the picture's lower edge to its upper one.
-    vfov: Checked<FieldOfView>,
+    pub vfov: Checked<FieldOfView>,
     /// Width of the picture over its height; that of the texture's image when left out, and 1 without an image.
-    aspect: Option<Checked<Positive>>,
+    pub aspect: Option<Checked<Positive>>,
     /// A `[[texture]]`'s name; white when left out.
-    texture: Option<Located<String>>,
+    pub texture: Option<Located<TextureName>>,
 }
 
 impl LightKeys for Keys {
@@ -41,7 +41,7 @@ impl LightKeys for Keys {
     ];
     const STRENGTH: &'static str = "irradiance";
 
-    fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<Projector, SceneError> {
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &Place) -> Result<Projector, SceneError> {
         let texture = self.texture.as_ref().map(|name| resolver.texture_id(name)).transpose()?;
         let of_image = texture.and_then(|id| match &resolver.scene.textures[id].kind {
             TextureKind::Image(image) => Some(f64::from(image.image.width) / f64::from(image.image.height)),

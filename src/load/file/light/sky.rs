@@ -1,7 +1,5 @@
 //! `type = "sky"`
 
-use std::ops::Range;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,16 +9,17 @@ use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::NonNegative;
 use crate::load::file::writer::{Writer, colour, line};
+use crate::load::place::Place;
 use crate::scene::Sky;
 
 /// Three colours by the height y of a direction of length 1: horizon + (zenith − horizon)·y above the horizon, ground below.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "SkyLight")]
 pub struct Keys {
-    zenith: Rgb<NonNegative>,
-    horizon: Rgb<NonNegative>,
-    ground: Rgb<NonNegative>,
+    pub zenith: Rgb<NonNegative>,
+    pub horizon: Rgb<NonNegative>,
+    pub ground: Rgb<NonNegative>,
 }
 
 impl LightKeys for Keys {
@@ -29,7 +28,7 @@ impl LightKeys for Keys {
     const EXAMPLES: &'static [&'static str] = &["zenith = [0.2, 0.4, 0.9]\nhorizon = [0.8, 0.8, 0.7]\nground = [0.2, 0.15, 0.1]"];
     const STRENGTH: &'static str = "radiance";
 
-    fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<Sky, SceneError> {
+    fn resolve(&self, _: &mut Resolver<'_>, _: &Place) -> Result<Sky, SceneError> {
         Ok(Sky { zenith: self.zenith.0, horizon: self.horizon.0, ground: self.ground.0 })
     }
 

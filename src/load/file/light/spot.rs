@@ -1,7 +1,5 @@
 //! `type = "spot"`
 
-use std::ops::Range;
-
 use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -10,44 +8,46 @@ use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{InterpolationName, SpotKeyEntry, WrittenLightTrack};
+use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
 use crate::load::file::writer::{self, Writer, colour, direction, line, number};
+use crate::load::place::Place;
 use crate::scene::animation::LightTrack;
 use crate::scene::{FalloffCurve, SpotLight, ThrownPicture};
 
 /// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as `curve` says.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "SpotLight", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
-    position: Vector,
-    direction: Located<Vector>,
+    pub position: Vector,
+    pub direction: Located<Vector>,
     /// W·sr⁻¹ on the axis.
-    intensity: Rgb<NonNegative>,
+    pub intensity: Rgb<NonNegative>,
     /// Degrees from the axis past which there is no light.
-    angle: Checked<HalfAngle>,
+    pub angle: Checked<HalfAngle>,
     /// Degrees from the axis up to which the intensity is full; `angle` when left out.
-    falloff: Option<Located<Checked<NonNegative>>>,
+    pub falloff: Option<Located<Checked<NonNegative>>>,
     /// How it falls between them; "smooth" when left out.
-    curve: Option<CurveName>,
+    pub curve: Option<CurveName>,
     /// A `[[texture]]`'s name, which multiplies the intensity: it fills the square around the cone. Then `angle` is below 90.
-    texture: Option<Located<String>>,
+    pub texture: Option<Located<TextureName>>,
     /// With `texture`: where its upper edge is, seen from the light; [0, 1, 0] when left out.
-    up: Option<Located<Vector>>,
+    pub up: Option<Located<Vector>>,
     /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
     #[schemars(extend("minItems" = 1))]
-    keyframes: Option<Located<Vec<Located<SpotKeyEntry>>>>,
+    pub keyframes: Option<Located<Vec<Located<SpotKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.
-    interpolation: Option<Located<InterpolationName>>,
+    pub interpolation: Option<Located<InterpolationName>>,
     /// A `[[node]]` that takes the light along at frames.
-    node: Option<Located<String>>,
+    pub node: Option<Located<String>>,
 }
 
 /// How a spot light's intensity falls between its angles.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-enum CurveName {
+pub enum CurveName {
     /// t²(3 − 2t), where t goes from 1 to 0 in proportion to the cosine of the angle.
     Smooth,
     /// t², as glTF recommends.
@@ -66,13 +66,13 @@ impl LightKeys for Keys {
     ];
     const STRENGTH: &'static str = "intensity";
 
-    fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<SpotLight, SceneError> {
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &Place) -> Result<SpotLight, SceneError> {
         let angle = self.angle.0;
         let falloff = self.falloff.as_ref().map_or(angle, |falloff| falloff.value.0);
         if let Some(written) = &self.falloff
             && falloff > angle
         {
-            return Err(resolver.error(&written.span, format!("`falloff` is at most `angle`, {angle} degrees")));
+            return Err(resolver.error(&written.place, format!("`falloff` is at most `angle`, {angle} degrees")));
         }
         let picture = self.picture(resolver)?;
         Ok(SpotLight {
@@ -122,12 +122,12 @@ impl Keys {
     fn picture(&self, resolver: &mut Resolver<'_>) -> Result<Option<ThrownPicture>, SceneError> {
         let Some(name) = &self.texture else {
             return match &self.up {
-                Some(up) => Err(resolver.error(&up.span, "`up` belongs to `texture`, which this light has not")),
+                Some(up) => Err(resolver.error(&up.place, "`up` belongs to `texture`, which this light has not")),
                 None => Ok(None),
             };
         };
         if self.angle.0 >= 90.0 {
-            return Err(resolver.error(&name.span, "the texture of a spot light fills a cone with an `angle` below 90 degrees"));
+            return Err(resolver.error(&name.place, "the texture of a spot light fills a cone with an `angle` below 90 degrees"));
         }
         let texture = resolver.texture_id(name)?;
         let up = up_across(resolver, &self.direction, self.up.as_ref())?;
@@ -146,6 +146,6 @@ pub fn up_across(
     if written.try_normalize().is_some_and(|up| along.cross(up).length() > 1e-6) {
         return Ok(written);
     }
-    let span = up.map_or(&direction.span, |up| &up.span);
+    let span = up.map_or(&direction.place, |up| &up.place);
     Err(resolver.error(span, "`up` is zero or lies along `direction`, so which way is up is not known"))
 }

@@ -6,6 +6,7 @@ use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Exactly, Located};
 use crate::load::file::writer::{Writer, line};
+use crate::load::place::Place;
 use crate::scene::MaterialKind;
 
 material_keys! {
@@ -14,6 +15,14 @@ material_keys! {
         materials: Exactly<Located<String>, 2>,
         /// The weight w0 of the first material.
         weight: Located<BlendWeightEntry>,
+    }
+}
+
+impl Keys {
+    /// A blend of two materials by their names; `weight` is the share of the first.
+    pub fn of(materials: [String; 2], weight: BlendWeightEntry, place: &Place) -> Self {
+        let materials = Exactly(materials.map(|name| place.at(name)));
+        Self { materials, weight: place.at(weight), ..Self::default() }
     }
 }
 
@@ -36,7 +45,7 @@ impl MaterialKeys for Keys {
         for part in self.materials.iter() {
             if resolver.scene.materials[resolver.material_id(part)?].normal_map.is_some() {
                 let message = format!("`{}` has a normal map and is part of a blend", part.value);
-                return Err(resolver.error(&part.span, message).with_help("give the normal map to the blend"));
+                return Err(resolver.error(&part.place, message).with_help("give the normal map to the blend"));
             }
         }
         Ok(())

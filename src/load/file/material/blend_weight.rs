@@ -6,15 +6,16 @@ use serde::Deserialize;
 use super::keys::ior_or_default;
 use crate::load::error::SceneError;
 use crate::load::file::colour::ChannelName;
+use crate::load::file::reference::{NamesTextures, TextureName};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
 use crate::load::file::writer::{Writer, channel_name, number, table, text};
 use crate::scene::{BlendWeight, TextureId, TextureKind};
 
 /// The weight of a blend's first material.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(tag = "type")]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(rename = "key:type", rename_all = "snake_case")]
+#[schemars(tag = "type", rename = "BlendWeightEntry")]
 pub enum BlendWeightEntry {
     Constant(ConstantWeight),
     Facing(FacingWeight),
@@ -26,65 +27,97 @@ pub enum BlendWeightEntry {
     Threshold(ThresholdWeight),
 }
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ConstantWeight {
-    value: Checked<Fraction>,
+    pub value: Checked<Fraction>,
 }
 
 /// w0 = clamp(|N·ωo|^power, 0, 1)
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct FacingWeight {
     /// 1 when left out.
-    power: Option<Checked<NonNegative>>,
+    pub power: Option<Checked<NonNegative>>,
 }
 
 /// w0 = 1 − R
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct FresnelWeight {
     /// 1.5 when left out.
-    ior: Option<Checked<IndexOfRefraction>>,
+    pub ior: Option<Checked<IndexOfRefraction>>,
     /// The dielectric equations instead of Schlick's approximation.
     #[serde(default)]
-    exact: bool,
+    pub exact: bool,
 }
 
 /// "front": w0 = 1 where the front is seen, 0 from behind. "camera": w0 = 1 for rays of the camera that nothing has scattered, 0 for all others
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "PlainWeight")]
 pub struct NoKeys {}
 
 /// w0 = luminance of a texture, or one of its channels
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(extend("dependentRequired" = { "factor": ["channel"] }))]
 pub struct TextureWeight {
-    texture: Located<String>,
+    pub texture: Located<TextureName>,
     /// The channel that is the weight; the luminance when left out.
-    channel: Option<ChannelName>,
+    pub channel: Option<ChannelName>,
     /// Multiplies the channel, 1 when left out.
-    factor: Option<Located<Checked<Fraction>>>,
+    pub factor: Option<Located<Checked<Fraction>>>,
 }
 
 /// w0' = 1 − w0
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ReverseWeight {
-    of: Box<BlendWeightEntry>,
+    pub of: Box<BlendWeightEntry>,
 }
 
 /// w0' = 1 where w0 >= tau, else 0
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ThresholdWeight {
-    tau: Number,
-    of: Box<BlendWeightEntry>,
+    pub tau: Number,
+    pub of: Box<BlendWeightEntry>,
+}
+
+impl Default for BlendWeightEntry {
+    fn default() -> Self {
+        Self::Front(NoKeys {})
+    }
+}
+
+impl NamesTextures for BlendWeightEntry {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        match self {
+            Self::Texture(keys) => keys.texture.each_texture(visit),
+            Self::Reverse(ReverseWeight { of }) | Self::Threshold(ThresholdWeight { of, .. }) => of.each_texture(visit),
+            Self::Constant(_) | Self::Facing(_) | Self::Fresnel(_) | Self::Front(_) | Self::Camera(_) => {}
+        }
+    }
 }
 
 impl BlendWeightEntry {
+    /// The same share everywhere.
+    ///
+    /// # Errors
+    /// A sentence about a number that is no share.
+    pub fn constant(value: f64) -> Result<Self, String> {
+        Ok(Self::Constant(ConstantWeight { value: Checked::of(value)? }))
+    }
+
+    /// A channel of a texture times a factor.
+    ///
+    /// # Errors
+    /// A sentence about a factor that is no share.
+    pub fn channel(texture: Located<TextureName>, channel: ChannelName, factor: f64) -> Result<Self, String> {
+        let factor = if factor == 1.0 { None } else { Some(texture.place.at(Checked::of(factor)?)) };
+        Ok(Self::Texture(TextureWeight { texture, channel: Some(channel), factor }))
+    }
     pub fn resolve(&self, resolver: &Resolver<'_>) -> Result<BlendWeight, SceneError> {
         Ok(match self {
             Self::Constant(keys) => BlendWeight::Constant { value: keys.value.0 },
@@ -103,7 +136,7 @@ impl TextureWeight {
     fn resolve(&self, resolver: &Resolver<'_>) -> Result<BlendWeight, SceneError> {
         let Some(channel) = self.channel else {
             if let Some(factor) = &self.factor {
-                return Err(resolver.error(&factor.span, "`factor` needs the key `channel`"));
+                return Err(resolver.error(&factor.place, "`factor` needs the key `channel`"));
             }
             return Ok(BlendWeight::Texture { texture: weight_texture(&self.texture, resolver)? });
         };
@@ -117,14 +150,14 @@ impl TextureWeight {
 }
 
 /// A weight is the luminance of a texture's colours: an alpha channel beside them would have no effect.
-fn weight_texture(name: &Located<String>, resolver: &Resolver<'_>) -> Result<TextureId, SceneError> {
+fn weight_texture(name: &Located<TextureName>, resolver: &Resolver<'_>) -> Result<TextureId, SceneError> {
     let id = resolver.texture_id(name)?;
     if let TextureKind::Image(image) = &resolver.scene.textures[id].kind
         && image.image.has_alpha
     {
-        let message = format!("the weight is the luminance of `{}`, whose alpha channel would have no effect", name.value);
+        let message = format!("the weight is the luminance of `{}`, whose alpha channel would have no effect", name.value.0);
         return Err(resolver
-            .error(&name.span, message)
+            .error(&name.place, message)
             .with_help("take a channel, `channel = \"a\"` for the alpha, or save the image without alpha, as the mask itself"));
     }
     Ok(id)

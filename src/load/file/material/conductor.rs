@@ -8,6 +8,7 @@ use super::keys::{MaterialKeys, material_keys};
 use super::roughness::{DistributionEntry, FacetKeys, MaskingEntry, write_facets};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Rgb, Scalar};
+use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located, NonNegative, Positive};
 use crate::load::file::writer::{Writer, colour, line};
@@ -72,6 +73,8 @@ pub enum MetalEntry {
     Aluminium,
 }
 
+impl NamesTextures for MetalEntry {}
+
 impl MaterialKeys for Keys {
     const EXAMPLES: &'static [&'static str] = &[
         "preset = \"copper\"\nroughness = 0.3",
@@ -90,7 +93,7 @@ impl MaterialKeys for Keys {
             (None, None, None, Some(reflectance)) => ConductorFresnel::Reflectance(resolver.colour(&reflectance.value)?),
             _ => {
                 let message = "a conductor needs both `eta` and `k`, or `preset` alone, or `reflectance` alone";
-                return Err(resolver.error(&self.name.span, message));
+                return Err(resolver.error(&self.name.place, message));
             }
         };
         let facets = FacetKeys {

@@ -36,7 +36,7 @@ impl MaterialKeys for Keys {
             (Some(emission), _) => Err(only_for_reflecting(emission, resolver)),
             (None, Some(two_sided)) => {
                 let message = "`emission_two_sided` is for materials that reflect; an emissive one has `two_sided`";
-                Err(resolver.error(&two_sided.span, message))
+                Err(resolver.error(&two_sided.place, message))
             }
             (None, None) => Ok(emission_of(
                 resolver.colour(&self.radiance)?,

@@ -3,6 +3,7 @@
 use super::opacity::Opacity;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
+use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative, Number};
 use crate::load::file::writer::Writer;
@@ -26,7 +27,7 @@ pub trait MaterialKeys {
                 let two_sided = two_sided.is_some_and(|two_sided| two_sided.value);
                 Ok(emission_of(resolver.colour(&emission.value)?, two_sided))
             }
-            (None, Some(two_sided)) => Err(resolver.error(&two_sided.span, "`emission_two_sided` needs the key `emission`")),
+            (None, Some(two_sided)) => Err(resolver.error(&two_sided.place, "`emission_two_sided` needs the key `emission`")),
             (None, None) => Ok(None),
         }
     }
@@ -56,15 +57,15 @@ pub fn ior_or_default(written: Option<Checked<IndexOfRefraction>>) -> f64 {
 /// The error of a material that does not reflect and yet has the key `emission`.
 pub fn only_for_reflecting(emission: &Located<Colour<NonNegative>>, resolver: &Resolver<'_>) -> SceneError {
     let message = "`emission` is for materials that reflect; an emissive one has `radiance`, and pass emits nothing";
-    resolver.error(&emission.span, message)
+    resolver.error(&emission.place, message)
 }
 
 /// The keys that every material has.
 pub struct CommonKeys<'a> {
     pub name: &'a Located<String>,
-    pub normal_map: Option<&'a Located<String>>,
+    pub normal_map: Option<&'a Located<TextureName>>,
     pub normal_scale: Option<&'a Located<Number>>,
-    pub bump_map: Option<&'a Located<String>>,
+    pub bump_map: Option<&'a Located<TextureName>>,
     pub bump_scale: Option<&'a Located<Number>>,
     pub normal_shadowing: Option<&'a Located<bool>>,
     pub normal_mirroring: Option<&'a Located<bool>>,
@@ -72,6 +73,20 @@ pub struct CommonKeys<'a> {
     pub emission_two_sided: Option<&'a Located<bool>>,
     pub opacity: Option<&'a Located<Opacity>>,
     pub two_sided: Option<&'a Located<bool>>,
+}
+
+/// The same to be changed.
+pub struct CommonKeysMut<'a> {
+    pub name: &'a mut Located<String>,
+    pub normal_map: &'a mut Option<Located<TextureName>>,
+    pub normal_scale: &'a mut Option<Located<Number>>,
+    pub bump_map: &'a mut Option<Located<TextureName>>,
+    pub bump_scale: &'a mut Option<Located<Number>>,
+    pub normal_shadowing: &'a mut Option<Located<bool>>,
+    pub normal_mirroring: &'a mut Option<Located<bool>>,
+    pub emission: &'a mut Option<Located<Colour<NonNegative>>>,
+    pub emission_two_sided: &'a mut Option<Located<bool>>,
+    pub two_sided: &'a mut Option<Located<bool>>,
 }
 
 /// Declares a material's `Keys`: its own and those that every material has. Serde cannot tell unknown keys from those of a struct within.
@@ -82,7 +97,7 @@ macro_rules! material_keys {
     };
     (@struct [$(#[$doc:meta])*] [$($(#[$field_doc:meta])* $field:ident: $type:ty,)*]
      [$($(#[$last_doc:meta])* $last:ident: $last_type:ty,)*]) => {
-        #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
+        #[derive(Debug, Clone, Default, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         #[schemars(extend("dependentRequired" = {
             "emission_two_sided": ["emission"], "normal_scale": ["normal_map"], "bump_scale": ["bump_map"]
@@ -91,29 +106,29 @@ macro_rules! material_keys {
         pub struct Keys {
             /// What shapes and blends call it.
             #[schemars(extend("minLength" = 1))]
-            name: $crate::load::file::value::Located<String>,
-            $($(#[$field_doc])* $field: $type,)*
+            pub name: $crate::load::file::value::Located<String>,
+            $($(#[$field_doc])* pub $field: $type,)*
             /// A texture of tangent-space normals whose color_space is "linear".
-            normal_map: Option<$crate::load::file::value::Located<String>>,
+            pub normal_map: Option<$crate::load::file::value::Located<$crate::load::file::reference::TextureName>>,
             /// With `normal_map`: multiplies its red and green, after they are taken from 0 to 1 to -1 to 1; 1 when left out.
-            normal_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
+            pub normal_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
             /// In place of a normal map: a texture of heights, of noise or an image whose color_space is "linear". Meshes, rectangles and boxes can have one.
-            bump_map: Option<$crate::load::file::value::Located<String>>,
+            pub bump_map: Option<$crate::load::file::value::Located<$crate::load::file::reference::TextureName>>,
             /// With `bump_map`: the height that 1 stands for, in scene units along the normal; 1 when left out.
-            bump_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
+            pub bump_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
             /// With `normal_map` or `bump_map`: light fades that the surface itself would hide from a normal that is bent towards it.
-            normal_shadowing: Option<$crate::load::file::value::Located<bool>>,
+            pub normal_shadowing: Option<$crate::load::file::value::Located<bool>>,
             /// With `normal_shadowing`: a normal that is bent away from the viewer is mirrored about the surface's own, which takes its place otherwise.
-            normal_mirroring: Option<$crate::load::file::value::Located<bool>>,
+            pub normal_mirroring: Option<$crate::load::file::value::Located<bool>>,
             /// Radiance the surface sends out by itself, besides what it reflects.
-            emission: Option<$crate::load::file::value::Located<
+            pub emission: Option<$crate::load::file::value::Located<
                 $crate::load::file::colour::Colour<$crate::load::file::value::NonNegative>,
             >>,
             /// Emission leaves the front only, unless this is true.
-            emission_two_sided: Option<$crate::load::file::value::Located<bool>>,
+            pub emission_two_sided: Option<$crate::load::file::value::Located<bool>>,
             /// How much of the surface there is: light goes straight through the rest, to shadows too. 1 when left out.
-            opacity: Option<$crate::load::file::value::Located<$crate::load::file::material::opacity::Opacity>>,
-            $($(#[$last_doc])* $last: $last_type,)*
+            pub opacity: Option<$crate::load::file::value::Located<$crate::load::file::material::opacity::Opacity>>,
+            $($(#[$last_doc])* pub $last: $last_type,)*
         }
 
         impl Keys {
@@ -131,6 +146,30 @@ macro_rules! material_keys {
                     opacity: self.opacity.as_ref(),
                     two_sided: self.two_sided.as_ref(),
                 }
+            }
+
+            pub fn common_mut(&mut self) -> $crate::load::file::material::keys::CommonKeysMut<'_> {
+                $crate::load::file::material::keys::CommonKeysMut {
+                    name: &mut self.name,
+                    normal_map: &mut self.normal_map,
+                    normal_scale: &mut self.normal_scale,
+                    bump_map: &mut self.bump_map,
+                    bump_scale: &mut self.bump_scale,
+                    normal_shadowing: &mut self.normal_shadowing,
+                    normal_mirroring: &mut self.normal_mirroring,
+                    emission: &mut self.emission,
+                    emission_two_sided: &mut self.emission_two_sided,
+                    two_sided: &mut self.two_sided,
+                }
+            }
+
+            pub fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+                use $crate::load::file::reference::NamesTextures;
+                $(self.$field.each_texture(visit);)*
+                self.normal_map.each_texture(visit);
+                self.bump_map.each_texture(visit);
+                self.emission.each_texture(visit);
+                self.opacity.each_texture(visit);
             }
         }
     };

@@ -1,15 +1,29 @@
 //! `[[material]]`: a file for each type, with the keys it is written by and what they mean.
 
-mod blend_weight;
+pub mod blend;
+pub mod blend_weight;
+pub mod conductor;
+pub mod diffuse;
+pub mod emissive;
+pub mod glass;
+pub mod glossy;
 mod keys;
-mod opacity;
-mod roughness;
+pub mod mirror;
+pub mod opacity;
+pub mod pass;
+pub mod phong;
+pub mod plastic;
+pub mod principled;
+pub mod rough_glass;
+pub mod roughness;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use self::keys::{CommonKeys, MaterialKeys};
+use self::keys::{CommonKeys, CommonKeysMut, MaterialKeys};
+use super::colour::Colour;
 use super::resolver::Resolver;
+use super::value::{Located, NonNegative};
 use super::writer::Writer;
 use crate::load::error::SceneError;
 use crate::scene::material::material_table;
@@ -18,12 +32,10 @@ use crate::scene::{Emission, MaterialKind};
 /// The entries of a scene file, by the rows of the table of materials.
 macro_rules! entries {
     ($($material:ident $module:ident { $($lobe:tt)* })*) => {
-        $(mod $module;)*
-
         /// What surfaces are made of.
-        #[derive(Debug, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case")]
-        #[schemars(tag = "type")]
+        #[derive(Debug, Clone, Deserialize, JsonSchema)]
+        #[serde(rename = "key:type", rename_all = "snake_case")]
+        #[schemars(tag = "type", rename = "MaterialEntry")]
         pub enum MaterialEntry { $($material($module::Keys),)* }
 
         impl MaterialEntry {
@@ -33,6 +45,15 @@ macro_rules! entries {
 
             pub fn common(&self) -> CommonKeys<'_> {
                 match self { $(Self::$material(keys) => keys.common(),)* }
+            }
+
+            pub fn common_mut(&mut self) -> CommonKeysMut<'_> {
+                match self { $(Self::$material(keys) => keys.common_mut(),)* }
+            }
+
+            /// Calls this with the name of each texture that the material looks up.
+            pub fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+                match self { $(Self::$material(keys) => keys.each_texture(visit),)* }
             }
 
             pub fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -59,6 +80,29 @@ macro_rules! entries {
     };
 }
 material_table!(entries);
+
+impl MaterialEntry {
+    pub fn name(&self) -> &str {
+        &self.common().name.value
+    }
+
+    /// The light that it sends out by itself.
+    pub fn radiance(&self) -> Option<&Colour<NonNegative>> {
+        match self {
+            Self::Emissive(keys) => Some(&keys.radiance),
+            other => other.common().emission.map(|emission| &emission.value),
+        }
+    }
+
+    /// The names of the materials that it blends.
+    pub fn parts(&self) -> &[Located<String>] {
+        if let Self::Blend(keys) = self { &keys.materials.0 } else { &[] }
+    }
+
+    pub fn parts_mut(&mut self) -> &mut [Located<String>] {
+        if let Self::Blend(keys) = self { &mut keys.materials.0 } else { &mut [] }
+    }
+}
 
 /// `type` and keys, as TOML, of examples of every material. Those of blends name the materials `red` and `mirror`.
 pub fn examples() -> impl Iterator<Item = (&'static str, String)> {

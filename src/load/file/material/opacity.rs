@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use crate::load::error::SceneError;
 use crate::load::file::colour::{ChannelName, NumberOr};
+use crate::load::file::reference::{NamesTextures, TextureName};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, Located};
 use crate::scene::{BlendWeight, Channel, ChannelInput, ColorInput};
@@ -17,13 +18,19 @@ pub type Opacity = NumberOr<Fraction, OpacityTexture>;
 #[serde(deny_unknown_fields, expecting = "a table with the key `texture`")]
 pub struct OpacityTexture {
     /// A `[[texture]]`'s name.
-    texture: Located<String>,
+    texture: Located<TextureName>,
     /// The channel that counts; the red one when left out.
     channel: Option<ChannelName>,
     /// Multiplies the texture, 1 when left out.
     factor: Option<Checked<Fraction>>,
     /// Where it is written, the surface is whole where the product is at least this, and not there elsewhere.
     cutoff: Option<Checked<Fraction>>,
+}
+
+impl NamesTextures for OpacityTexture {
+    fn each_texture(&mut self, visit: &mut dyn FnMut(&mut String)) {
+        self.texture.each_texture(visit);
+    }
 }
 
 impl Opacity {

@@ -22,7 +22,7 @@ impl MaterialKeys for Keys {
     fn two_sided(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<bool, SceneError> {
         match common.two_sided {
             Some(two_sided) => {
-                Err(resolver.error(&two_sided.span, "`pass` is the same on both sides: it has no key `two_sided`"))
+                Err(resolver.error(&two_sided.place, "`pass` is the same on both sides: it has no key `two_sided`"))
             }
             None => Ok(true),
         }
@@ -31,7 +31,7 @@ impl MaterialKeys for Keys {
     fn emission(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {
         match (common.emission, common.emission_two_sided) {
             (Some(emission), _) => Err(only_for_reflecting(emission, resolver)),
-            (None, Some(two_sided)) => Err(resolver.error(&two_sided.span, "`emission_two_sided` needs the key `emission`")),
+            (None, Some(two_sided)) => Err(resolver.error(&two_sided.place, "`emission_two_sided` needs the key `emission`")),
             (None, None) => Ok(None),
         }
     }

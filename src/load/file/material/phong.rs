@@ -42,7 +42,7 @@ impl Keys {
             let sum = diffuse.0 + specular.0;
             if sum.max_element() > 1.0 + 1e-9 {
                 let message = format!("diffuse + specular is at most 1 per channel, found {}", sum.max_element());
-                return Err(resolver.error(&self.specular.span, message));
+                return Err(resolver.error(&self.specular.place, message));
             }
         }
         Ok(())

@@ -69,12 +69,12 @@ impl Keys {
     fn interface(&self, resolver: &Resolver<'_>) -> Result<PlasticInterface, SceneError> {
         let ior = ior_or_default(self.ior);
         let alpha = match (&self.alpha, &self.roughness) {
-            (Some(_), Some(roughness)) => return Err(resolver.error(&roughness.span, "either `alpha` or `roughness`")),
+            (Some(_), Some(roughness)) => return Err(resolver.error(&roughness.place, "either `alpha` or `roughness`")),
             (Some(alpha), None) => alpha.value.0,
             (None, Some(roughness)) => roughness.value.0.powi(2),
             (None, None) => {
-                let unused = self.distribution.as_ref().map(|key| ("distribution", &key.span));
-                return match unused.or(self.masking.as_ref().map(|key| ("masking", &key.span))) {
+                let unused = self.distribution.as_ref().map(|key| ("distribution", &key.place));
+                return match unused.or(self.masking.as_ref().map(|key| ("masking", &key.place))) {
                     Some((name, span)) => {
                         Err(resolver.error(span, format!("`{name}` is for rough surfaces: it needs `alpha` or `roughness`")))
                     }

@@ -1,16 +1,16 @@
 //! `type = "principled"`
 
-use std::ops::Range;
-
 use glam::DVec3;
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::MaskingEntry;
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Rgb, Scalar};
+use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number, Positive};
 use crate::load::file::writer::{self, Writer, flag, line, number};
+use crate::load::place::Place;
 use crate::scene::{Attenuation, CoatNormalMap, ColorInput, Masking, MaterialKind, Principled};
 
 material_keys! {
@@ -56,7 +56,7 @@ material_keys! {
         /// 0 when left out.
         clearcoat_roughness: Option<Located<Scalar<Fraction>>>,
         /// A texture of tangent-space normals of the coat, whose color_space is "linear". Without it the coat lies as the surface does, whatever `normal_map` or `bump_map` makes of what is below.
-        coat_normal_map: Option<Located<String>>,
+        coat_normal_map: Option<Located<TextureName>>,
         /// With `coat_normal_map`: multiplies its red and green, after they are taken from 0 to 1 to -1 to 1; 1 when left out.
         coat_normal_scale: Option<Located<Number>>,
         /// Colour of fibres that stand on the surface, as on cloth; 0 when left out.
@@ -66,7 +66,7 @@ material_keys! {
         /// How much wider microfacets are along one direction. 0 when left out.
         anisotropy: Option<Box<Scalar<Fraction>>>,
         /// A texture of that direction, whose color_space is "linear": red along the direction in which texture coordinate u grows, green across it towards that of v, each from 0 to 1 for -1 to 1. Along u when left out.
-        anisotropy_direction: Option<Located<String>>,
+        anisotropy_direction: Option<Located<TextureName>>,
         /// Degrees by which it is turned further, from the direction in which texture coordinate u grows towards that of v.
         anisotropy_rotation: Option<Located<Number>>,
         /// "separable" when left out.
@@ -180,7 +180,7 @@ impl Keys {
         if let (Some(attenuation), Some(thin)) = (&self.attenuation_color, &self.thin)
             && thin.value
         {
-            return Err(resolver.error(&attenuation.span, "a `thin` wall encloses nothing that could take light"));
+            return Err(resolver.error(&attenuation.place, "a `thin` wall encloses nothing that could take light"));
         }
         let rows = [
             (span(&self.anisotropy_rotation), "anisotropy_rotation", self.anisotropy.is_some(), "anisotropy"),
@@ -204,6 +204,6 @@ impl Keys {
 }
 
 /// Where a key stands that is written.
-fn span<T>(written: &Option<Located<T>>) -> Option<Range<usize>> {
-    written.as_ref().map(|written| written.span.clone())
+fn span<T>(written: &Option<Located<T>>) -> Option<Place> {
+    written.as_ref().map(|written| written.place.clone())
 }

@@ -7,6 +7,7 @@ use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::{FacetKeys, MaskingEntry, write_facets};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Scalar};
+use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, Positive};
 use crate::load::file::writer::{Writer, flag, line, number};
@@ -72,6 +73,8 @@ pub enum MicrofacetEntry {
     Phong,
 }
 
+impl NamesTextures for MicrofacetEntry {}
+
 impl MaterialKeys for Keys {
     const EXAMPLES: &'static [&'static str] = &[
         "ior = 1.5\nroughness = 0.4",
@@ -108,17 +111,17 @@ impl Keys {
     /// Phong's distribution, which has an exponent and nothing of what microfacets have.
     fn phong(&self, exponent: &Located<Scalar<Positive>>, resolver: &Resolver<'_>) -> Result<Microfacets, SceneError> {
         if self.distribution.as_ref().is_some_and(|name| name.value != MicrofacetEntry::Phong) {
-            return Err(resolver.error(&exponent.span, "`exponent` belongs to distribution = \"phong\""));
+            return Err(resolver.error(&exponent.place, "`exponent` belongs to distribution = \"phong\""));
         }
         let pairs = [&self.alpha_u, &self.alpha_v, &self.roughness_u, &self.roughness_v];
         if let Some(other) = [&self.alpha, &self.roughness].into_iter().chain(pairs).flatten().next() {
-            return Err(resolver.error(&other.span, "either `exponent` or one of `alpha` and `roughness`"));
+            return Err(resolver.error(&other.place, "either `exponent` or one of `alpha` and `roughness`"));
         }
         if let Some(masking) = &self.masking {
-            return Err(resolver.error(&masking.span, "`masking` is for microfacets: distribution = \"phong\" has none"));
+            return Err(resolver.error(&masking.place, "`masking` is for microfacets: distribution = \"phong\" has none"));
         }
         if let Some(thin) = self.thin.as_ref().filter(|thin| thin.value) {
-            return Err(resolver.error(&thin.span, "thin walls are for microfacets: distribution = \"phong\" has none"));
+            return Err(resolver.error(&thin.place, "thin walls are for microfacets: distribution = \"phong\" has none"));
         }
         Ok(Microfacets::phong(resolver.scalar(&exponent.value)?))
     }
@@ -126,7 +129,7 @@ impl Keys {
     fn facets(&self, resolver: &Resolver<'_>) -> Result<Microfacets, SceneError> {
         let distribution = match &self.distribution {
             Some(name) if name.value == MicrofacetEntry::Phong => {
-                return Err(resolver.error(&name.span, "distribution = \"phong\" needs the key `exponent`"));
+                return Err(resolver.error(&name.place, "distribution = \"phong\" needs the key `exponent`"));
             }
             Some(Located { value: MicrofacetEntry::Beckmann, .. }) => MicrofacetDistribution::Beckmann,
             _ => MicrofacetDistribution::Ggx,
@@ -139,7 +142,7 @@ impl Keys {
             distribution: None,
             masking: None,
         };
-        let missing = || resolver.error(&self.name.span, "rough_glass needs one of `alpha`, `roughness` and `exponent`");
+        let missing = || resolver.error(&self.name.place, "rough_glass needs one of `alpha`, `roughness` and `exponent`");
         let facets = keys.resolve(resolver)?.ok_or_else(missing)?;
         let masking = self.masking.as_ref().map_or(Masking::HeightCorrelated, |masking| masking.value.into());
         Ok(Microfacets { distribution, masking, ..facets })

@@ -5,9 +5,11 @@ use serde::Deserialize;
 
 use crate::load::error::SceneError;
 use crate::load::file::colour::Scalar;
+use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located};
 use crate::load::file::writer::{Writer, colour, line};
+use crate::load::place::Place;
 use crate::scene::{ColorInput, Masking, MicrofacetDistribution, Microfacets};
 
 type Key<'a> = Option<&'a Located<Scalar<Fraction>>>;
@@ -15,7 +17,7 @@ type Key<'a> = Option<&'a Located<Scalar<Fraction>>>;
 /// The GGX width from `alpha`, or from `roughness`, whose square it is. None where neither is written.
 pub fn ggx_alpha(alpha: Key<'_>, roughness: Key<'_>, resolver: &Resolver<'_>) -> Result<Option<ColorInput>, SceneError> {
     match (alpha, roughness) {
-        (Some(_), Some(roughness)) => Err(resolver.error(&roughness.span, "either `alpha` or `roughness`")),
+        (Some(_), Some(roughness)) => Err(resolver.error(&roughness.place, "either `alpha` or `roughness`")),
         (Some(alpha), None) => resolver.scalar(&alpha.value).map(Some),
         (None, Some(roughness)) => Ok(Some(resolver.scalar(&roughness.value)?.squared())),
         (None, None) => Ok(None),
@@ -31,6 +33,9 @@ pub enum DistributionEntry {
     /// Normally distributed slopes.
     Beckmann,
 }
+
+impl NamesTextures for DistributionEntry {}
+impl NamesTextures for MaskingEntry {}
 
 impl From<DistributionEntry> for MicrofacetDistribution {
     fn from(entry: DistributionEntry) -> Self {
@@ -78,7 +83,7 @@ impl FacetKeys<'_> {
         let single = self.alpha.or(self.roughness);
         if let (Some(single), Some(_)) = (single, &pair) {
             let message = "one width, or two: either `alpha` or `roughness`, or both of `alpha_u` and `alpha_v` or of `roughness_u` and `roughness_v`";
-            return Err(resolver.error(&single.span, message));
+            return Err(resolver.error(&single.place, message));
         }
         let widths = match pair {
             // Equal ones have no direction.
@@ -86,8 +91,8 @@ impl FacetKeys<'_> {
             None => ggx_alpha(self.alpha, self.roughness, resolver)?.map(|alpha| (alpha, None)),
         };
         let Some((alpha, alpha_v)) = widths else {
-            let unused = self.distribution.map(|key| ("distribution", &key.span));
-            return match unused.or(self.masking.map(|key| ("masking", &key.span))) {
+            let unused = self.distribution.map(|key| ("distribution", &key.place));
+            return match unused.or(self.masking.map(|key| ("masking", &key.place))) {
                 Some((name, span)) => {
                     Err(resolver.error(span, format!("`{name}` is for rough surfaces: it needs `alpha` or `roughness`")))
                 }
@@ -107,13 +112,13 @@ impl FacetKeys<'_> {
         let [alphas, roughnesses] = [self.alphas, self.roughnesses];
         let is_written = |keys: [Key<'_>; 2]| keys.iter().any(Option::is_some);
         if is_written(alphas) && is_written(roughnesses) {
-            let span = roughnesses.into_iter().flatten().next().map_or(0..0, |key| key.span.clone());
+            let span = roughnesses.into_iter().flatten().next().map_or_else(Place::default, |key| key.place.clone());
             return Err(resolver.error(&span, "either `alpha_u` and `alpha_v` or `roughness_u` and `roughness_v`"));
         }
         for (keys, [u, v]) in [(alphas, ["alpha_u", "alpha_v"]), (roughnesses, ["roughness_u", "roughness_v"])] {
             match keys {
-                [Some(key), None] => return Err(resolver.error(&key.span, format!("`{u}` needs `{v}`"))),
-                [None, Some(key)] => return Err(resolver.error(&key.span, format!("`{v}` needs `{u}`"))),
+                [Some(key), None] => return Err(resolver.error(&key.place, format!("`{u}` needs `{v}`"))),
+                [None, Some(key)] => return Err(resolver.error(&key.place, format!("`{v}` needs `{u}`"))),
                 _ => {}
             }
         }

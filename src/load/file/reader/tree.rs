@@ -1,6 +1,5 @@
 //! Serde's reader of the tree: of a value, of the keys of a table, the values of a list, and the kind of an enum.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use serde::de::value::StrDeserializer;
@@ -13,18 +12,9 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use super::located::LOCATED;
 use super::mistake::Mistake;
-use crate::load::file::wording::MISSING;
 
-/// The enums whose kind is said by a key of their table, and that key.
-const TAGS: [(&str, &str); 7] = [
-    ("ApertureEntry", "shape"),
-    ("BlendWeightEntry", "type"),
-    ("FilterEntry", "type"),
-    ("LightEntry", "type"),
-    ("MaterialEntry", "type"),
-    ("ShapeEntry", "type"),
-    ("TextureEntry", "type"),
-];
+/// Begins the name for serde of an enum whose kind is said by a key of its table: `#[serde(rename = "key:type")]`.
+const TAG: &str = "key:";
 
 /// A value of the tree.
 pub type Node<'t> = Spanned<DeValue<'t>>;
@@ -112,15 +102,15 @@ impl<'t> Reader<'t> {
     }
 
     /// The kind of an enum that is written here, and where its content is.
-    fn choice(self, name: &str) -> Result<Choice<'t>, Mistake> {
+    fn choice(self, name: &'static str, kinds: &[&str]) -> Result<Choice<'t>, Mistake> {
         let span = self.node.span();
         if name == LOCATED {
             return Ok(Choice { kind: Kind::Place(span.clone()), span, content: Some(self) });
         }
         let found = self.node.get_ref();
-        let Some((_, tag)) = TAGS.iter().find(|(tagged, _)| *tagged == name) else {
+        let Some(tag) = name.strip_prefix(TAG) else {
             return match found {
-                DeValue::String(text) => Ok(Choice { kind: Kind::Name(Cow::Borrowed(text)), span, content: None }),
+                DeValue::String(text) => Ok(Choice { kind: Kind::Name(text), span, content: None }),
                 other => Err(Mistake::new(span, format!("expected a name in quotes, found {}", other.type_str()))),
             };
         };
@@ -128,11 +118,10 @@ impl<'t> Reader<'t> {
             return Err(Mistake::new(span, format!("expected a table with the key `{tag}`, found {}", found.type_str())));
         };
         let content = Some(Self { node: self.node, view: View::Without(tag) });
-        match table.get(*tag) {
-            // A name that is no choice, so that serde's complaint lists the choices.
-            None => Ok(Choice { kind: Kind::Name(Cow::Owned(format!("{MISSING}{tag}"))), span, content }),
+        match table.get(tag) {
+            None => Err(Mistake::without_kind(tag, kinds).within(span)),
             Some(kind) => match kind.get_ref() {
-                DeValue::String(text) => Ok(Choice { kind: Kind::Name(Cow::Borrowed(text)), span: kind.span(), content }),
+                DeValue::String(text) => Ok(Choice { kind: Kind::Name(text), span: kind.span(), content }),
                 other => Err(Mistake::new(kind.span(), format!("expected a name in quotes, found {}", other.type_str()))),
             },
         }
@@ -249,10 +238,10 @@ impl<'t> Deserializer<'t> for Reader<'t> {
     fn deserialize_enum<V: Visitor<'t>>(
         self,
         name: &'static str,
-        _: &'static [&'static str],
+        kinds: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Mistake> {
-        visitor.visit_enum(self.choice(name)?).map_err(|mistake| mistake.within(self.node.span()))
+        visitor.visit_enum(self.choice(name, kinds)?).map_err(|mistake| mistake.within(self.node.span()))
     }
 
     fn deserialize_ignored_any<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
@@ -350,7 +339,7 @@ struct Choice<'t> {
 }
 
 enum Kind<'t> {
-    Name(Cow<'t, str>),
+    Name(&'t str),
     /// Of a value with its place: the place.
     Place(Range<usize>),
 }
@@ -370,7 +359,7 @@ impl<'t> Deserializer<'t> for Kind<'t> {
 
     fn deserialize_any<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
         match self {
-            Self::Name(name) => visitor.visit_str(&name),
+            Self::Name(name) => visitor.visit_str(name),
             Self::Place(span) => visitor.visit_u128(((span.start as u128) << 64) | span.end as u128),
         }
     }

@@ -1,6 +1,5 @@
 //! `[animation]`, `[[node]]` and keyframes.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use crate::load::error::SceneError;
@@ -11,6 +10,7 @@ use crate::load::file::node::NodeEntry;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{CameraTable, ProjectionName, SceneFile};
 use crate::load::file::value::{Located, Number, vector};
+use crate::load::place::Place;
 use crate::scene::animation::{
     Animation, CameraTrack, FRAMES_PER_SECOND, Interpolation, Key, LightTrack, Node, ShapeTrack, TransformTrack, Turn,
 };
@@ -27,8 +27,9 @@ impl Resolver<'_> {
             animation.nodes.extend(self.note(node));
         }
         self.check_parents(file, &animation.nodes)?;
-        let camera = self.camera_track(&file.camera, fps)?;
-        animation.camera = camera;
+        if let Some(camera) = &file.camera {
+            animation.camera = self.camera_track(camera, fps)?;
+        }
         self.scene.animation = Arc::new(animation);
         Ok(())
     }
@@ -54,7 +55,7 @@ impl Resolver<'_> {
             while let Some(index) = next.filter(|&index| !ends[index]) {
                 if std::mem::replace(&mut walk[index], start) == start {
                     let name = &file.node[index].value.name;
-                    return Err(self.error(&name.span, format!("the node `{}` contains itself", name.value)));
+                    return Err(self.error(&name.place, format!("the node `{}` contains itself", name.value)));
                 }
                 chain.push(index);
                 next = nodes[index].parent;
@@ -82,11 +83,11 @@ impl Resolver<'_> {
             let TransformKeyEntry { scale, rotate, degrees, translate, .. } = &entry.value;
             if scale.is_none() && rotate.is_none() && degrees.is_none() && translate.is_none() {
                 let message = "a keyframe of a transform states `scale`, `rotate` with `degrees`, or `translate`";
-                return Err(self.error(&entry.span, message));
+                return Err(self.error(&entry.place, message));
             }
             if let Some(scale) = scale {
                 if scale.value.0.abs().min_element() == 0.0 {
-                    return Err(self.error(&scale.span, "a scale of 0 flattens the shape"));
+                    return Err(self.error(&scale.place, "a scale of 0 flattens the shape"));
                 }
                 track.scale.keys.push(Key { frame, value: scale.value.0 });
             }
@@ -95,9 +96,9 @@ impl Resolver<'_> {
                     let value = Turn { axis: self.direction(axis)?, degrees: degrees.value.0 };
                     track.rotation.keys.push(Key { frame, value });
                 }
-                (Some(_), None) => return Err(self.error(&entry.span, "`rotate` needs the key `degrees`")),
+                (Some(_), None) => return Err(self.error(&entry.place, "`rotate` needs the key `degrees`")),
                 (None, Some(degrees)) => {
-                    return Err(self.error(&degrees.span, "`degrees` belongs to `rotate`, which is missing"));
+                    return Err(self.error(&degrees.place, "`degrees` belongs to `rotate`, which is missing"));
                 }
                 (None, None) => {}
             }
@@ -112,7 +113,7 @@ impl Resolver<'_> {
         interpolation: Option<&Located<InterpolationName>>,
     ) -> Result<(), SceneError> {
         let refuse = |written: &Located<_>| {
-            Err(self.error(&written.span, "`interpolation` belongs to `keyframes`, of which there are none"))
+            Err(self.error(&written.place, "`interpolation` belongs to `keyframes`, of which there are none"))
         };
         interpolation.map_or(Ok(()), refuse)
     }
@@ -125,21 +126,21 @@ impl Resolver<'_> {
         times: impl Fn(&T) -> (Option<Number>, Option<Number>),
     ) -> Result<Vec<f64>, SceneError> {
         if keyframes.value.is_empty() {
-            return Err(self.error(&keyframes.span, "a list of keyframes has at least one"));
+            return Err(self.error(&keyframes.place, "a list of keyframes has at least one"));
         }
         let mut frames: Vec<f64> = Vec::with_capacity(keyframes.value.len());
         for entry in &keyframes.value {
             let frame = match times(&entry.value) {
                 (Some(frame), None) => frame.0,
                 (None, Some(time)) => time.0 * fps,
-                (None, None) => return Err(self.error(&entry.span, "a keyframe states its `frame`, or its `time` in seconds")),
+                (None, None) => return Err(self.error(&entry.place, "a keyframe states its `frame`, or its `time` in seconds")),
                 (Some(_), Some(_)) => {
-                    return Err(self.error(&entry.span, "a keyframe states either its `frame` or its `time`, and this has both"));
+                    return Err(self.error(&entry.place, "a keyframe states either its `frame` or its `time`, and this has both"));
                 }
             };
             if let Some(last) = frames.last().filter(|last| **last >= frame) {
                 let message = format!("keyframes stand in the order of their frames, and this one, {frame}, follows {last}");
-                return Err(self.error(&entry.span, message));
+                return Err(self.error(&entry.place, message));
             }
             frames.push(frame);
         }
@@ -165,17 +166,17 @@ impl Resolver<'_> {
                 && focus_distance.is_none()
             {
                 let message = "a keyframe of the camera states `position`, `look_at`, `up`, `vfov`, `height` or `focus_distance`";
-                return Err(self.error(&entry.span, message));
+                return Err(self.error(&entry.place, message));
             }
             for (curve, value) in [(&mut track.position, position), (&mut track.look_at, look_at), (&mut track.up, up)] {
                 curve.keys.extend(value.map(|value| Key { frame, value: vector(value) }));
             }
-            let misplaced = |span: &Range<usize>, key: &str, kind: &str| {
+            let misplaced = |span: &Place, key: &str, kind: &str| {
                 Err(self.error(span, format!("only keyframes of {kind} cameras state `{key}`")))
             };
             match (vfov, height) {
-                (Some(vfov), _) if !is_perspective => return misplaced(&vfov.span, "vfov", "perspective"),
-                (_, Some(height)) if is_perspective => return misplaced(&height.span, "height", "orthographic"),
+                (Some(vfov), _) if !is_perspective => return misplaced(&vfov.place, "vfov", "perspective"),
+                (_, Some(height)) if is_perspective => return misplaced(&height.place, "height", "orthographic"),
                 _ => {}
             }
             let opening = vfov.as_ref().map(|vfov| vfov.value.0).or(height.as_ref().map(|height| height.value.0));
@@ -211,7 +212,7 @@ impl Resolver<'_> {
         for (entry, frame) in keyframes.value.iter().zip(frames) {
             let LightKey { position, direction, strength, rotation_degrees, .. } = entry.value.key();
             if position.is_none() && direction.is_none() && strength.is_none() && rotation_degrees.is_none() {
-                return Err(self.error(&entry.span, format!("a keyframe of this light states {}", K::STATES)));
+                return Err(self.error(&entry.place, format!("a keyframe of this light states {}", K::STATES)));
             }
             let direction = direction.map(|direction| self.direction(direction)).transpose()?;
             track.position.keys.extend(position.map(|value| Key { frame, value }));
@@ -232,7 +233,7 @@ impl Resolver<'_> {
             return Ok(());
         }
         // One of the two is written.
-        let span = keyframes.map(|keys| &keys.span).or(node.map(|name| &name.span)).cloned().unwrap_or_default();
+        let span = keyframes.map(|keys| &keys.place).or(node.map(|name| &name.place)).cloned().unwrap_or_default();
         if has_motion {
             return Err(self
                 .error(&span, "a shape has either a `motion` or keyframes")
@@ -250,7 +251,7 @@ impl Resolver<'_> {
         {
             // The keys of the scale are those entries that state one.
             let entry = keyframes.value.iter().filter(|entry| entry.value.scale.is_some()).nth(at);
-            return Err(self.error(entry.map_or(&keyframes.span, |entry| &entry.span), shape.geometry.stays_round()));
+            return Err(self.error(entry.map_or(&keyframes.place, |entry| &entry.place), shape.geometry.stays_round()));
         }
         let shape_track = ShapeTrack { shape: self.scene.shapes.len(), track, node: node_id, rest: shape.transform.clone() };
         Arc::make_mut(&mut self.scene.animation).shapes.push(shape_track);

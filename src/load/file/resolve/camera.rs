@@ -15,10 +15,10 @@ impl Resolver<'_> {
         let look_at = vector(written.look_at.value);
         let up = written.up.as_ref().map_or(DVec3::Y, |up| vector(up.value));
         let Some(forward) = (look_at - position).try_normalize() else {
-            return Err(self.error(&written.look_at.span, "the camera looks at the point it stands at"));
+            return Err(self.error(&written.look_at.place, "the camera looks at the point it stands at"));
         };
         if up.try_normalize().is_none_or(|up| up.cross(forward).length() < 1e-6) {
-            let span = written.up.as_ref().map_or(&written.look_at.span, |up| &up.span);
+            let span = written.up.as_ref().map_or(&written.look_at.place, |up| &up.place);
             let message = "`up` is zero or lies along the viewing direction, so which way is up is not known";
             return Err(self.error(span, message).with_help("choose an `up` that is not parallel to look_at - position"));
         }
@@ -27,13 +27,13 @@ impl Resolver<'_> {
         if let Some(written) = &written.shutter
             && shutter[0] > shutter[1]
         {
-            return Err(self.error(&written.span, "the shutter closes before it opens"));
+            return Err(self.error(&written.place, "the shutter closes before it opens"));
         }
         let stretch = written.stretch.as_ref().map_or(1.0, |stretch| stretch.value.0);
         if let Some(written) = &written.stretch
             && !(1e-6..=1e6).contains(&stretch.abs())
         {
-            return Err(self.error(&written.span, format!("a stretch is from 1e-6 to 1e6, or that below 0, and not {stretch}")));
+            return Err(self.error(&written.place, format!("a stretch is from 1e-6 to 1e6, or that below 0, and not {stretch}")));
         }
         self.scene.camera = Camera {
             position,
@@ -51,18 +51,18 @@ impl Resolver<'_> {
 
     fn projection(&self, written: &CameraTable) -> Result<Projection, SceneError> {
         let name = written.projection.as_ref().map_or(ProjectionName::Perspective, |name| name.value);
-        let missing = |key: &str| self.error(&written.look_at.span, format!("the camera needs the key `{key}`"));
+        let missing = |key: &str| self.error(&written.look_at.place, format!("the camera needs the key `{key}`"));
         match name {
             ProjectionName::Perspective => {
                 if let Some(height) = &written.height {
-                    return Err(self.error(&height.span, "`height` belongs to projection = \"orthographic\""));
+                    return Err(self.error(&height.place, "`height` belongs to projection = \"orthographic\""));
                 }
                 let vfov = written.vfov.as_ref().ok_or_else(|| missing("vfov"))?;
                 Ok(Projection::Perspective { vertical_fov_degrees: vfov.value.0 })
             }
             ProjectionName::Orthographic => {
                 if let Some(vfov) = &written.vfov {
-                    return Err(self.error(&vfov.span, "`vfov` belongs to projection = \"perspective\""));
+                    return Err(self.error(&vfov.place, "`vfov` belongs to projection = \"perspective\""));
                 }
                 let height = written.height.as_ref().ok_or_else(|| missing("height"))?;
                 Ok(Projection::Orthographic { height: height.value.0 })
@@ -74,7 +74,7 @@ impl Resolver<'_> {
     fn aperture(&self, written: &CameraTable) -> Result<Option<Aperture>, SceneError> {
         let Some(aperture) = &written.aperture else { return Ok(None) };
         if written.focus_distance.is_none() {
-            return Err(self.error(&aperture.span, "an aperture needs the key `focus_distance`"));
+            return Err(self.error(&aperture.place, "an aperture needs the key `focus_distance`"));
         }
         let (shape, radius) = match &aperture.value {
             ApertureEntry::Disk(disk) => (ApertureShape::Disk, disk.radius),
@@ -85,7 +85,7 @@ impl Resolver<'_> {
                     && !BLADES.contains(&blades)
                 {
                     let message = format!("an aperture has {} to {} blades", BLADES.start(), BLADES.end());
-                    return Err(self.error(&written.span, message));
+                    return Err(self.error(&written.place, message));
                 }
                 let rotation_degrees = polygon.rotation.map_or(0.0, |rotation| rotation.0);
                 (ApertureShape::Polygon { blades, rotation_degrees }, polygon.radius)

@@ -2,6 +2,7 @@
 
 use crate::load::error::SceneError;
 use crate::load::file::material::MaterialEntry;
+use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
 use crate::scene::{BlendWeight, Material, MaterialKind, Relief, Texture, TextureId, TextureKind, check_blends};
@@ -33,7 +34,7 @@ impl Resolver<'_> {
         // Materials stand in the order of their entries, and behind them what some of those are made of.
         check_blends(&self.scene.materials).map_err(|(id, message)| {
             let entry = id.checked_sub(written.len()).map_or(id, |behind| of_entry[behind]);
-            self.error(&written[entry].common().name.span, message)
+            self.error(&written[entry].common().name.place, message)
         })
     }
 
@@ -97,31 +98,31 @@ impl Resolver<'_> {
     }
 
     /// A texture by which normals are bent.
-    fn relief_texture(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
+    fn relief_texture(&self, name: &Located<TextureName>) -> Result<TextureId, SceneError> {
         let id = self.texture_id(name)?;
         if self.scene.textures[id].times.is_some() {
-            let message = format!("normal and bump maps cannot be products, as the texture `{}` is by `times`", name.value);
-            return Err(self.error(&name.span, message));
+            let message = format!("normal and bump maps cannot be products, as the texture `{}` is by `times`", name.value.0);
+            return Err(self.error(&name.place, message));
         }
         Ok(id)
     }
 
-    pub(in crate::load::file) fn normal_map(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
+    pub(in crate::load::file) fn normal_map(&self, name: &Located<TextureName>) -> Result<TextureId, SceneError> {
         self.relief_texture(name)?;
         self.texture_of_directions(name, "a normal map")
     }
 
     pub(in crate::load::file) fn texture_of_directions(
         &self,
-        name: &Located<String>,
+        name: &Located<TextureName>,
         what: &str,
     ) -> Result<TextureId, SceneError> {
         let id = self.texture_id(name)?;
         if self.linear_textures[id] {
             return Ok(id);
         }
-        let message = format!("{what} holds directions, not colours: `{}` needs color_space = \"linear\"", name.value);
-        Err(self.error(&name.span, message))
+        let message = format!("{what} holds directions, not colours: `{}` needs color_space = \"linear\"", name.value.0);
+        Err(self.error(&name.place, message))
     }
 
     /// The material with a normal map that is scaled, or with a bump map: the same texture once more, which says how it bends normals.
@@ -132,36 +133,36 @@ impl Resolver<'_> {
         {
             if let (Some(scale), None) = (scale, map) {
                 let message = format!("`{key}` belongs to `{}`, which is not there", key.replace("scale", "map"));
-                return Err(self.error(&scale.span, message));
+                return Err(self.error(&scale.place, message));
             }
         }
         let shadowing = common.normal_shadowing;
         if let (Some(shadowing), None, None) = (shadowing, common.normal_map, common.bump_map) {
             let message = "`normal_shadowing` belongs to `normal_map` or `bump_map`, of which there is none";
-            return Err(self.error(&shadowing.span, message));
+            return Err(self.error(&shadowing.place, message));
         }
         let is_shadowed = shadowing.is_some_and(|shadowing| shadowing.value);
         let is_mirrored = common.normal_mirroring.is_some_and(|mirroring| mirroring.value);
         if let (Some(mirroring), false) = (common.normal_mirroring, is_shadowed) {
             let message = "`normal_mirroring` belongs to `normal_shadowing = true`, which is not there";
-            return Err(self.error(&mirroring.span, message));
+            return Err(self.error(&mirroring.place, message));
         }
         let relief = match (common.bump_map, material.normal_map, common.normal_scale) {
             (Some(bump), Some(_), _) => {
-                return Err(self.error(&bump.span, "a material has a normal map or a bump map, not both"));
+                return Err(self.error(&bump.place, "a material has a normal map or a bump map, not both"));
             }
             (Some(bump), None, _) => {
                 let id = self.relief_texture(bump)?;
                 let is_image = matches!(self.scene.textures[id].kind, TextureKind::Image(_));
-                let name = &bump.value;
+                let name = &bump.value.0;
                 if let TextureKind::Checker { .. } = self.scene.textures[id].kind {
                     let message =
                         format!("the checker `{name}` rises in steps, and has no slopes for a bump map: take an image or noise");
-                    return Err(self.error(&bump.span, message));
+                    return Err(self.error(&bump.place, message));
                 }
                 if is_image && !self.linear_textures[id] {
                     let message = format!("a bump map holds heights, not colours: `{name}` needs color_space = \"linear\"");
-                    return Err(self.error(&bump.span, message));
+                    return Err(self.error(&bump.place, message));
                 }
                 Some((id, Relief::Heights(common.bump_scale.map_or(1.0, |scale| scale.value.0))))
             }

@@ -11,11 +11,15 @@ mod texture;
 use std::path::Path;
 
 use super::document::Document;
+use super::reference::FileOr;
 use super::resolver::Resolver;
-use super::syntax::{PartOfFile, SceneFile};
+use super::shape::{self, ShapeEntry, TransformEntry};
+use super::syntax::SceneFile;
+use super::value::Located;
 use crate::load::access::Access;
 use crate::load::error::{SceneError, show};
-use crate::scene::Scene;
+use crate::load::place::{Origin, Place};
+use crate::scene::{Scene, Transform};
 
 /// Resolves a whole file.
 pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, access: Access) -> Result<Scene, SceneError> {
@@ -23,7 +27,7 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
     // Each part goes on past its own mistakes, so that all are told at once.
     let settings = resolver.settings(&file);
     resolver.note(settings);
-    let camera = resolver.camera(&file.camera);
+    let camera = file.camera.as_ref().map_or(Ok(()), |camera| resolver.camera(camera));
     resolver.note(camera);
     let animation = resolver.animation(&file);
     if resolver.note(animation).is_none() {
@@ -47,32 +51,38 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
     resolver.finish()
 }
 
-/// Reads a model by itself: a scene of one shape with the model's own materials and nothing else.
-pub fn resolve_model(path: &Path, smooth: Option<bool>, access: Access) -> Result<Scene, SceneError> {
-    let name = show(path);
-    let mut resolver = Resolver::new(Document::new(&name, "", &[]), Path::new(""), access);
-    resolver.lone_mesh(path, smooth, None)?;
-    resolver.finish()
+/// The transform that an entry of a file states.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn resolve_transform(document: &Document<'_>, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
+    Resolver::new(document.clone(), Path::new(""), Access::default()).transform(written)
 }
 
-/// As [`resolve_model`], with the last of the materials of a file in place of the model's own.
-pub fn resolve_model_of<'a>(
+/// Reads a model by itself: a scene of one shape with the model's own materials, or with the last one of `materials`.
+///
+/// # Errors
+/// What keeps the model or the materials from being read.
+pub fn resolve_model<'a>(
     path: &Path,
     smooth: Option<bool>,
-    (document, folder): (Document<'a>, &'a Path),
+    materials: Option<(Document<'a>, &'a Path)>,
     access: Access,
 ) -> Result<Scene, SceneError> {
-    let file: PartOfFile = document.read().map_err(|first| document.all_mistakes::<PartOfFile>(first))?;
-    let name = document.name;
-    let mut resolver = Resolver::new(document, folder, access);
-    resolver.textures(&file.texture)?;
-    resolver.materials(&file.material)?;
-    if !resolver.errors.is_empty() {
-        return resolver.finish();
+    let name = show(path);
+    let place = Place::from(Origin { file: name.clone(), ..Origin::default() });
+    let mut keys = shape::mesh::Keys { file: Some(place.at(FileOr::OnDisk(path.to_owned()))), smooth, ..Default::default() };
+    let mut file = SceneFile::default();
+    if let Some((document, _)) = &materials {
+        let library: SceneFile = document.read_whole()?;
+        (file.texture, file.material) = (library.texture, library.material);
+        let last = file.material.last().map(|last| last.common().name.value.clone());
+        let missing = || SceneError::in_file(document.name, "has no [[material]] to take");
+        keys.material = Some(place.at(last.ok_or_else(missing)?));
     }
-    let Some(last) = resolver.scene.materials.len().checked_sub(1) else {
-        return Err(SceneError::in_file(name, "has no [[material]] to take"));
-    };
-    resolver.lone_mesh(path, smooth, Some(last))?;
-    resolver.finish()
+    file.shape.push(place.at(ShapeEntry::Mesh(keys)));
+    let (document, folder) = materials.unwrap_or((Document::new("", ""), Path::new("")));
+    let mut scene = resolve(document, folder, file, access)?;
+    scene.shapes[0].label = name;
+    Ok(scene)
 }

@@ -19,6 +19,7 @@ use super::mtl_principled::is_principled;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::formats;
+use crate::load::image_file::PictureSource;
 use crate::load::mends::Mends;
 use crate::load::model::{MtlKey, MtlMaterial, Substitute};
 use crate::load::obj::TextureMap;
@@ -234,7 +235,7 @@ impl Resolver<'_> {
         if found.is_some_and(|found| found.is_substitute) {
             self.warn(written, &of_material(format!("there is no {}; {} is taken", map.file, show(&path))));
         }
-        let image = match self.picture(&path, space) {
+        let image = match self.picture(&PictureSource::File(path.clone()), space) {
             Ok((image, _)) => image,
             Err(reason) => {
                 let advice = formats::unread_picture(&path).map_or_else(String::new, |advice| format!(" ({advice})"));

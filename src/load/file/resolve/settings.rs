@@ -23,7 +23,7 @@ impl Resolver<'_> {
     }
 
     fn bad_setting(&self, table: &str, bad: BadSetting) -> SceneError {
-        let error = self.error(&self.document.span_of(table, bad.setting), bad.message);
+        let error = self.error(&self.document.place_of(table, bad.setting), bad.message);
         match bad.help {
             Some(help) => error.with_help(help),
             None => error,

@@ -3,17 +3,18 @@
 use std::collections::HashSet;
 use std::collections::hash_map::Entry;
 use std::mem::take;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::load::error::{SceneError, show};
+use crate::load::error::SceneError;
+use crate::load::file::reference::FileOr;
 use crate::load::file::resolver::{CachedImage, Resolver};
 use crate::load::file::syntax::{ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
 use crate::load::formats;
+use crate::load::image_file::{EmbeddedFile, PictureSource};
 use crate::picture_file::Envelope;
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{
@@ -55,9 +56,9 @@ impl Resolver<'_> {
         let Some(name) = written[index].common().times else { return Ok(None) };
         let other = self.texture_id(name)?;
         if other == index || written.get(other).is_none_or(|entry| entry.common().times.is_some()) {
-            let message = format!("`times` names `{}`, which is multiplied by another texture itself", name.value);
+            let message = format!("`times` names `{}`, which is multiplied by another texture itself", name.value.0);
             return Err(self
-                .error(&name.span, message)
+                .error(&name.place, message)
                 .with_help("a product has two textures, of which the second has no `times`"));
         }
         Ok(Some(other))
@@ -78,7 +79,7 @@ impl Resolver<'_> {
                 if let Some(written) = &perlin.octaves
                     && octaves > MOST_OCTAVES
                 {
-                    return Err(self.error(&written.span, format!("at most {MOST_OCTAVES} octaves")));
+                    return Err(self.error(&written.place, format!("at most {MOST_OCTAVES} octaves")));
                 }
                 let (scale, seed) = (factor(perlin.scale), perlin.seed.unwrap_or(0));
                 TextureKind::Perlin { scale, octaves, a: perlin.a.0, b: perlin.b.0, seed }
@@ -93,13 +94,13 @@ impl Resolver<'_> {
     /// Reads the files of all image textures on all cores. What cannot be read is left to be found again, and told, in its turn.
     fn decode_side_by_side(&mut self, written: &[TextureEntry]) {
         let key = |entry: &TextureEntry| match entry {
-            TextureEntry::Image(image) => Some((self.path(&image.file.value), image.color_space.map(Into::into))),
+            TextureEntry::Image(image) => Some((self.picture_source(&image.file.value), image.color_space.map(Into::into))),
             _ => None,
         };
-        let keys: HashSet<(PathBuf, Option<ColorSpace>)> = written.iter().filter_map(key).collect();
+        let keys: HashSet<(PictureSource, Option<ColorSpace>)> = written.iter().filter_map(key).collect();
         let progress = self.pictures.files().progress();
         progress.expect(keys.len());
-        let decode = |key: (PathBuf, Option<ColorSpace>)| {
+        let decode = |key: (PictureSource, Option<ColorSpace>)| {
             let picture = self.pictures.read(&key.0, key.1);
             progress.one_was_read();
             picture.ok().map(|picture| (key, CachedImage::from(picture)))
@@ -111,12 +112,11 @@ impl Resolver<'_> {
     fn image_texture(&mut self, written: &ImageEntry) -> Result<ImageTexture, SceneError> {
         let space = written.color_space.map(Into::into);
         let image = self.image(&written.file, space)?;
-        let path = self.path(&written.file.value);
-        let hints = self.hints(&path, space);
+        let source = self.picture_source(&written.file.value);
+        let hints = self.hints(&source, space);
         if hints.envelope == Some(Envelope::Cube) {
             let note = "its envmap is a cube, which only environments use: as a texture, it lies flat";
-            self.name_unused(&path, note)
-                .map_err(|reason| self.error(&written.file.span, format!("{}: {reason}", show(&path))))?;
+            self.name_unused(&source, note).map_err(|reason| self.error(&written.file.place, format!("{source}: {reason}")))?;
         }
         let by_file = match hints.wrap_modes.as_deref().filter(|_| written.wrap.is_none()) {
             None => [TextureWrap::Repeat; 2],
@@ -126,8 +126,8 @@ impl Resolver<'_> {
                     let note = format!(
                         "its wrapmodes is `{modes}`, which is not used: the texture repeats unless its key `wrap` says otherwise"
                     );
-                    self.name_unused(&path, &note)
-                        .map_err(|reason| self.error(&written.file.span, format!("{}: {reason}", show(&path))))?;
+                    self.name_unused(&source, &note)
+                        .map_err(|reason| self.error(&written.file.place, format!("{source}: {reason}")))?;
                     [TextureWrap::Repeat; 2]
                 }
             },
@@ -164,7 +164,7 @@ impl Resolver<'_> {
     /// Reads the image file that a key names.
     pub(in crate::load::file) fn image(
         &mut self,
-        file: &Located<String>,
+        file: &Located<FileOr<EmbeddedFile>>,
         space: Option<ColorSpace>,
     ) -> Result<Arc<ImageData>, SceneError> {
         self.image_and_bits(file, space).map(|(image, _)| image)
@@ -173,13 +173,13 @@ impl Resolver<'_> {
     /// The same with the bits of a format of integers.
     pub(in crate::load::file) fn image_and_bits(
         &mut self,
-        file: &Located<String>,
+        file: &Located<FileOr<EmbeddedFile>>,
         space: Option<ColorSpace>,
     ) -> Result<(Arc<ImageData>, Option<u16>), SceneError> {
-        let path = self.path(&file.value);
-        self.picture(&path, space).map_err(|reason| {
-            let error = self.error(&file.span, format!("{}: {reason}", show(&path)));
-            match formats::unread_picture(&path) {
+        let source = self.picture_source(&file.value);
+        self.picture(&source, space).map_err(|reason| {
+            let error = self.error(&file.place, format!("{source}: {reason}"));
+            match formats::unread_picture(source.name()) {
                 Some(advice) => error.with_help(advice),
                 None => error,
             }
@@ -187,21 +187,29 @@ impl Resolver<'_> {
     }
 
     /// Reads an image once, however often it is named. The error says what is wrong with it, without its name.
-    pub(super) fn picture(&mut self, path: &Path, space: Option<ColorSpace>) -> Result<(Arc<ImageData>, Option<u16>), String> {
-        let cached = match self.images.entry((path.to_owned(), space)) {
+    pub(super) fn picture(
+        &mut self,
+        file: &PictureSource,
+        space: Option<ColorSpace>,
+    ) -> Result<(Arc<ImageData>, Option<u16>), String> {
+        let cached = match self.images.entry((file.clone(), space)) {
             Entry::Occupied(entry) => entry.into_mut(),
-            Entry::Vacant(entry) => entry.insert(self.pictures.read(path, space)?.into()),
+            Entry::Vacant(entry) => entry.insert(self.pictures.read(file, space)?.into()),
         };
         // A written scene names files that everyone reads alike; pixels of others are written anew.
         if cached.is_plain {
-            let source = ImageSource { path: path.to_owned(), color_space: space, scale: 1.0 };
+            let (path, embedded) = match file {
+                PictureSource::File(path) => (path.clone(), None),
+                PictureSource::Embedded(file) => (file.name.clone().into(), Some(file.bytes.clone())),
+            };
+            let source = ImageSource { path, embedded, color_space: space, scale: 1.0 };
             self.scene.sources.add_image(&cached.image, source);
         }
         if let Some(change) = cached.change.take() {
-            self.scene.warnings.push(format!("{}: {change}", show(path)));
+            self.scene.warnings.push(format!("{file}: {change}"));
         }
         let (notes, read) = (take(&mut cached.notes), (cached.image.clone(), cached.integer_bits));
-        notes.iter().try_for_each(|note| self.name_unused(path, note))?;
+        notes.iter().try_for_each(|note| self.name_unused(file, note))?;
         Ok(read)
     }
 }

@@ -1,10 +1,13 @@
 //! `type = "cylinder"`
 
-use super::keys::{ShapeKeys, Written, shape_keys};
+use glam::DVec3;
+
+use super::keys::{ShapeKeys, Written, plain_keys, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Located, Positive, Vector, vector};
+use crate::load::file::value::{Checked, Exactly, Located, Positive, Vector, vector};
 use crate::load::file::writer::{self, Writer, line, number};
+use crate::load::place::Place;
 use crate::scene::{Cylinder, Shape};
 
 shape_keys! {
@@ -20,6 +23,17 @@ shape_keys! {
     }
 }
 
+impl Keys {
+    /// A cylinder between two ends.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of(from: DVec3, to: DVec3, radius: f64, place: &Place) -> Result<Self, String> {
+        let to = place.at(Exactly::of(to.to_array())?);
+        Ok(plain_keys!(from: Exactly::of(from.to_array())?, to: to, radius: Checked::of(radius)?))
+    }
+}
+
 impl ShapeKeys for Keys {
     type Shape = Cylinder;
 
@@ -28,7 +42,7 @@ impl ShapeKeys for Keys {
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Cylinder, SceneError> {
         let (from, to) = (vector(self.from), vector(self.to.value));
         if (to - from).length() == 0.0 {
-            return Err(resolver.error(&self.to.span, "the cylinder has no length: `from` and `to` are the same point"));
+            return Err(resolver.error(&self.to.place, "the cylinder has no length: `from` and `to` are the same point"));
         }
         Ok(Cylinder { from, to, radius: self.radius.0 })
     }

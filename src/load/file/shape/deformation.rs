@@ -9,17 +9,19 @@ use serde::Deserialize;
 use crate::load::deformation_file::{DeformationRows, influences_file};
 use crate::load::error::{SceneError, show};
 use crate::load::file::keyframes::InterpolationName;
+use crate::load::file::place_file::place_rows;
+use crate::load::file::reference::FileOr;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Exactly, Located, Number};
 use crate::load::file::writer::{Writer, line, list, number, numbers, table, text};
 use crate::load::files::MOST_SCENE_BYTES;
-use crate::load::import::place_rows;
 use crate::load::memory;
+use crate::load::place::Place;
 use crate::scene::Mesh;
 use crate::scene::animation::{Curve, Deformation, Interpolation, Joint, Key, MorphTarget};
 
 /// What bends a mesh: first morph targets, then joints.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { file = \"arm.json\", joints = [{ node = \"elbow\" }] }")]
 #[schemars(rename = "Deformation")]
 pub struct DeformationEntry {
@@ -27,40 +29,40 @@ pub struct DeformationEntry {
     /// "normals": [[x, y, z], …] }, …] }`, each list in the order of the mesh's vertices. Joints are counted from 0; targets state by how much they
     /// move vertices.
     #[schemars(extend("pattern" = "\\.[jJ][sS][oO][nN]$"))]
-    file: Located<String>,
+    pub file: Located<FileOr<DeformationRows>>,
     /// What takes vertices along. A vertex goes where its joints put it on average, by their weights.
-    joints: Option<Located<Vec<JointEntry>>>,
+    pub joints: Option<Located<Vec<JointEntry>>>,
     /// How much each target counts without a frame.
-    weights: Option<Located<Vec<Number>>>,
+    pub weights: Option<Located<Vec<Number>>>,
     /// How much they count at frames.
     #[schemars(extend("minItems" = 1))]
-    keyframes: Option<Located<Vec<Located<WeightKeyEntry>>>>,
+    pub keyframes: Option<Located<Vec<Located<WeightKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.
-    interpolation: Option<Located<InterpolationName>>,
+    pub interpolation: Option<Located<InterpolationName>>,
 }
 
 /// A joint.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { node = \"elbow\" }")]
 #[schemars(rename = "Joint")]
 pub struct JointEntry {
     /// A `[[node]]` that takes the joint along at frames.
-    node: Option<Located<String>>,
+    pub node: Option<Located<String>>,
     /// From the mesh as it is in its file to the mesh as it is without a frame: the 12 numbers of a matrix of 3 rows and 4 columns, row by row.
-    matrix: Option<Located<Exactly<Number, 12>>>,
+    pub matrix: Option<Located<Exactly<Number, 12>>>,
 }
 
 /// How much morph targets count at a frame.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, weights = [0.5] }")]
 #[schemars(rename = "WeightKeyframe", extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }]))]
 pub struct WeightKeyEntry {
     /// Number of the frame, not necessarily a whole one; or `time`.
-    frame: Option<Number>,
+    pub frame: Option<Number>,
     /// Seconds after the start.
-    time: Option<Number>,
+    pub time: Option<Number>,
     /// One for each target.
-    weights: Vec<Number>,
+    pub weights: Vec<Number>,
 }
 
 impl Resolver<'_> {
@@ -70,9 +72,8 @@ impl Resolver<'_> {
         mesh: Arc<Mesh>,
         written: Option<&Located<DeformationEntry>>,
     ) -> Result<Arc<Mesh>, SceneError> {
-        let Some(Located { value: written, span }) = written else { return Ok(mesh) };
-        let path = self.path(&written.file.value);
-        let rows = self.deformation_rows(&path)?;
+        let Some(Located { value: written, place: span }) = written else { return Ok(mesh) };
+        let rows = self.deformation_rows(&written.file)?;
         let mut deformation = Deformation { base: mesh, ..Deformation::default() };
         for joint in written.joints.iter().flat_map(|joints| &joints.value) {
             let node = joint.node.as_ref().map(|name| self.look_up(&self.node_names, name, "node")).transpose()?;
@@ -86,7 +87,10 @@ impl Resolver<'_> {
             .map(|rows| MorphTarget { positions: list(rows.positions), normals: list(rows.normals), ..MorphTarget::default() })
             .collect();
         self.weights(written, &mut deformation.targets)?;
-        deformation.check().map_err(|message| SceneError::in_file(show(&path), message))?;
+        deformation.check().map_err(|message| match written.file.value.path(self.folder) {
+            Some(path) => SceneError::in_file(show(&path), message),
+            None => self.error(&written.file.place, message),
+        })?;
         let rest = deformation.at_rest();
         if let Some(vertex) = rest.positions.iter().position(|position| !position.is_finite()) {
             return Err(self.error(span, format!("vertex {vertex} of the mesh is bent out of the range of numbers")));
@@ -95,12 +99,17 @@ impl Resolver<'_> {
         Ok(Arc::new(rest))
     }
 
-    fn deformation_rows(&self, path: &std::path::Path) -> Result<DeformationRows, SceneError> {
-        let name = show(path);
+    fn deformation_rows(&self, file: &Located<FileOr<DeformationRows>>) -> Result<DeformationRows, SceneError> {
+        let path = match &file.value {
+            FileOr::InMemory(rows) => return Ok(DeformationRows::clone(rows)),
+            FileOr::Written(path) => self.folder.join(path),
+            FileOr::OnDisk(path) => path.clone(),
+        };
+        let name = show(&path);
         // A list of an empty list is three bytes, and takes some twenty times as much.
         let most = MOST_SCENE_BYTES.min(memory::available() / 20);
         let bytes =
-            self.files().read(path, most).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
+            self.files().read(&path, most).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
         serde_json::from_slice(&bytes).map_err(|error| {
             let message = error.to_string();
             let what = message.rsplit_once(" at line").map_or(message.as_str(), |(what, _)| what).to_owned();
@@ -110,12 +119,12 @@ impl Resolver<'_> {
 
     /// How much targets count.
     fn weights(&self, written: &DeformationEntry, targets: &mut [MorphTarget]) -> Result<(), SceneError> {
-        let fits = |count: usize, span: &std::ops::Range<usize>| match count == targets.len() {
+        let fits = |count: usize, span: &Place| match count == targets.len() {
             true => Ok(()),
             false => Err(self.error(span, format!("there are {count} weights for {} targets", targets.len()))),
         };
         if let Some(weights) = &written.weights {
-            fits(weights.value.len(), &weights.span)?;
+            fits(weights.value.len(), &weights.place)?;
         }
         let Some(keyframes) = &written.keyframes else {
             self.without_keyframes(written.interpolation.as_ref())?;
@@ -124,7 +133,7 @@ impl Resolver<'_> {
         };
         let frames = self.frames(keyframes, self.scene.animation.frames_per_second, |key| (key.frame, key.time))?;
         for entry in &keyframes.value {
-            fits(entry.value.weights.len(), &entry.span)?;
+            fits(entry.value.weights.len(), &entry.place)?;
         }
         let interpolation = written.interpolation.as_ref().map_or(Interpolation::default(), |name| name.value.into());
         for (index, target) in targets.iter_mut().enumerate() {

@@ -1,16 +1,30 @@
 //! `type = "disk"`
 
-use super::keys::{ShapeKeys, Written, shape_keys};
+use glam::DVec3;
+
+use super::keys::{ShapeKeys, Written, plain_keys, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Located, Positive, Vector, vector};
+use crate::load::file::value::{Checked, Exactly, Located, Positive, Vector, vector};
 use crate::load::file::writer::{self, Writer, direction, line, number};
+use crate::load::place::Place;
 use crate::scene::{Disk, Shape};
 
 shape_keys! {
     /// A flat disk.
     #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "DiskShape" { center: Vector, normal: Located<Vector>, radius: Checked<Positive> }
+}
+
+impl Keys {
+    /// A disk.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of(center: DVec3, normal: DVec3, radius: f64, place: &Place) -> Result<Self, String> {
+        let normal = place.at(Exactly::of(normal.to_array())?);
+        Ok(plain_keys!(center: Exactly::of(center.to_array())?, normal: normal, radius: Checked::of(radius)?))
+    }
 }
 
 impl ShapeKeys for Keys {

@@ -1,13 +1,12 @@
 //! The keys that every shape has.
 
-use std::ops::Range;
-
 use super::transform::TransformEntry;
 use crate::load::error::SceneError;
 use crate::load::file::keyframes::WrittenTrack;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
 use crate::load::file::writer::Writer;
+use crate::load::place::Place;
 use crate::scene::{MaterialId, Shape};
 
 /// What a shape's keys mean.
@@ -28,7 +27,7 @@ pub trait ShapeKeys {
 /// Declares the keys of a shape: its own and those that every shape has. `name` is what the schema calls them.
 macro_rules! shape_keys {
     ($(#[$doc:meta])* $name:literal { $($(#[$field_doc:meta])* $field:ident : $type:ty),* $(,)? }) => {
-        #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
+        #[derive(Debug, Clone, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         #[schemars(rename = $name)]
         #[schemars(extend("dependentSchemas" = {
@@ -38,11 +37,11 @@ macro_rules! shape_keys {
         }))]
         $(#[$doc])*
         pub struct Keys {
-            $($(#[$field_doc])* $field: $type,)*
+            $($(#[$field_doc])* pub $field: $type,)*
             /// A `[[material]]`'s name. A mesh file may leave it out to use its own materials.
-            material: Option<$crate::load::file::value::Located<String>>,
+            pub material: Option<$crate::load::file::value::Located<String>>,
             /// Steps applied in this order, or a matrix.
-            transform: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
+            pub transform: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
             /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1; at time 0 the shape rests. They apply in
             /// this order after `transform`, along the world's axes and about the shape's own origin, where `transform` puts its
             /// (0, 0, 0). Each is interpolated by itself: rotations turn evenly about their axis.
@@ -50,21 +49,29 @@ macro_rules! shape_keys {
                 { "type": "object", "required": ["matrix"] },
                 { "type": "array", "contains": { "type": "object", "required": ["matrix"] } },
             ] } }]))]
-            motion: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
+            pub motion: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
             /// Where the shape stands at frames (`--frame`, `--frames`, `--time`), in place of `transform`, where it stands without one.
             #[schemars(extend("minItems" = 1))]
-            keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<$crate::load::file::keyframes::TransformKeyEntry>>>>,
+            pub keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<$crate::load::file::keyframes::TransformKeyEntry>>>>,
             /// How keyframes lead from one to the next; "linear" when left out.
-            interpolation: Option<$crate::load::file::value::Located<$crate::load::file::keyframes::InterpolationName>>,
+            pub interpolation: Option<$crate::load::file::value::Located<$crate::load::file::keyframes::InterpolationName>>,
             /// A `[[node]]` that takes the shape along at frames.
-            node: Option<$crate::load::file::value::Located<String>>,
+            pub node: Option<$crate::load::file::value::Located<String>>,
             /// Sample the directions through this shape for the environment's light as if the shape were a light: a window. Its
             /// material is of type `pass`; a surface that emits is sampled as a light in any case.
             #[serde(default)]
-            portal: bool,
+            pub portal: bool,
         }
 
         impl Keys {
+            pub fn common_mut(&mut self) -> $crate::load::file::shape::keys::CommonKeysMut<'_> {
+                $crate::load::file::shape::keys::CommonKeysMut {
+                    material: &mut self.material,
+                    transform: &mut self.transform,
+                    node: &mut self.node,
+                }
+            }
+
             pub fn common(&self) -> $crate::load::file::shape::keys::CommonKeys<'_> {
                 $crate::load::file::shape::keys::CommonKeys {
                     material: self.material.as_ref(),
@@ -84,6 +91,23 @@ macro_rules! shape_keys {
 }
 pub(super) use shape_keys;
 
+/// Makes the keys of a shape from its own, without those that every shape has.
+macro_rules! plain_keys {
+    ($($field:ident: $value:expr),* $(,)?) => {
+        Self {
+            $($field: $value,)*
+            material: None,
+            transform: None,
+            motion: None,
+            keyframes: None,
+            interpolation: None,
+            node: None,
+            portal: false,
+        }
+    };
+}
+pub(super) use plain_keys;
+
 /// The keys that every shape has.
 pub struct CommonKeys<'a> {
     pub material: Option<&'a Located<String>>,
@@ -93,9 +117,16 @@ pub struct CommonKeys<'a> {
     pub track: WrittenTrack<'a>,
 }
 
+/// Keys that every shape has and importers change.
+pub struct CommonKeysMut<'a> {
+    pub material: &'a mut Option<Located<String>>,
+    pub transform: &'a mut Option<Located<TransformEntry>>,
+    pub node: &'a mut Option<Located<String>>,
+}
+
 /// A shape whose geometry is about to be resolved.
 pub struct Written<'a> {
-    pub span: &'a Range<usize>,
+    pub place: &'a Place,
     /// Place among the scene's shapes.
     pub index: usize,
     /// The one that is written, or that the geometry brings with it.

@@ -11,15 +11,18 @@ use super::mesh_file::{Replaced, choose_normals};
 use super::mesh_writer;
 use crate::load::error::SceneError;
 use crate::load::error::show;
+use crate::load::file::reference::FileOr;
 use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
 use crate::load::file::writer::Writer;
 use crate::load::formats;
 use crate::load::model::ModelFormat;
+use crate::load::place::Place;
 use crate::scene::{Mesh, Shape};
 
 shape_keys! {
     /// Triangles, from a file or written here.
+    #[derive(Default)]
     #[schemars(extend("allOf" = [{ "oneOf": [
         { "required": ["file"], "not": { "anyOf": [
             { "required": ["positions"] }, { "required": ["faces"] }, { "required": ["uvs"] }, { "required": ["second_uvs"] }, { "required": ["normals"] },
@@ -32,7 +35,7 @@ shape_keys! {
     "MeshShape" {
         /// Path of an OBJ or a PLY file (`.obj`, `.ply`, `.ply.gz`), relative to the scene file.
         #[schemars(extend("pattern" = "\\.([oO][bB][jJ]|[pP][lL][yY](\\.[gG][zZ])?)$"))]
-        file: Option<Located<String>>,
+        file: Option<Located<FileOr<Mesh>>>,
         positions: Option<Vec<Located<Vector>>>,
         /// Three indices into `positions` each, counted from 0, counter-clockwise seen from the front.
         faces: Option<Vec<Located<Exactly<u32, 3>>>>,
@@ -63,10 +66,10 @@ impl ShapeKeys for Keys {
     fn resolve(&self, resolver: &mut Resolver<'_>, entry: &mut Written<'_>) -> Result<Arc<Mesh>, SceneError> {
         let Some(file) = &self.file else {
             if let Some(materials) = &self.materials {
-                return Err(resolver.error(&materials.span, "`materials` is for meshes with `file`"));
+                return Err(resolver.error(&materials.place, "`materials` is for meshes with `file`"));
             }
             if entry.material.is_none() {
-                return Err(resolver.error(entry.span, "the key `material` is missing: only a mesh file can have its own"));
+                return Err(resolver.error(entry.place, "the key `material` is missing: only a mesh file can have its own"));
             }
             let mesh = Arc::new(self.inline_mesh(resolver, entry)?);
             return resolver.deformed(mesh, self.deformation.as_deref());
@@ -79,19 +82,19 @@ impl ShapeKeys for Keys {
             ("normals", self.normals.is_some()),
         ];
         if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
-            return Err(resolver.error(&file.span, format!("a mesh has either `file` or `{key}`")));
+            return Err(resolver.error(&file.place, format!("a mesh has either `file` or `{key}`")));
         }
-        let path = resolver.path(&file.value);
+        let Some(path) = file.value.path(resolver.folder) else { return self.mesh_in_memory(resolver, entry, file) };
         if ModelFormat::of(&path).is_none() {
             let message = format!("a mesh file is an OBJ or a PLY file: its name ends in {}", formats::MODEL_ENDINGS);
-            let error = resolver.error(&file.span, message);
+            let error = resolver.error(&file.place, message);
             return Err(match formats::advice(&path) {
                 Some((_, advice)) => error.with_help(advice),
                 None => error,
             });
         }
-        if !resolver.files().exists(&path) {
-            return Err(resolver.error(&file.span, format!("there is no file {}", show(&path))));
+        if matches!(file.value, FileOr::Written(_)) && !resolver.files().exists(&path) {
+            return Err(resolver.error(&file.place, format!("there is no file {}", show(&path))));
         }
         let replaced = self.replaced(resolver, entry)?;
         let LoadedMesh { mesh, material } = resolver.mesh_file(&path, self.smooth, entry.material, &replaced)?;
@@ -105,18 +108,39 @@ impl ShapeKeys for Keys {
 }
 
 impl Keys {
+    /// A mesh that an importer has made.
+    pub fn of(mesh: Arc<Mesh>, place: &Place) -> Self {
+        Self { smooth: Some(mesh.smooth), file: Some(place.at(FileOr::InMemory(mesh))), ..Self::default() }
+    }
+
+    /// The mesh that an importer has made, as it is.
+    fn mesh_in_memory(
+        &self,
+        resolver: &mut Resolver<'_>,
+        entry: &mut Written<'_>,
+        file: &Located<FileOr<Mesh>>,
+    ) -> Result<Arc<Mesh>, SceneError> {
+        let FileOr::InMemory(mesh) = &file.value else { return Err(resolver.error(&file.place, "it is no mesh")) };
+        entry.material.get_or_insert_with(|| resolver.material_of_unnamed_faces());
+        resolver.deformed(mesh.clone(), self.deformation.as_deref())
+    }
+
     /// The file's materials for which others stand, and those.
     fn replaced(&self, resolver: &Resolver<'_>, entry: &Written<'_>) -> Result<Replaced<'_>, SceneError> {
         let Some(materials) = &self.materials else { return Ok(Replaced::default()) };
         if entry.material.is_some() {
             let message = "a mesh has either `material`, for all of its faces, or `materials`, for some";
-            return Err(resolver.error(&materials.span, message));
+            return Err(resolver.error(&materials.place, message));
         }
         let id = |(of_file, name): (&String, &Located<String>)| Ok((of_file.clone(), resolver.material_id(name)?));
-        Ok(Replaced { names: materials.value.iter().map(id).collect::<Result<_, _>>()?, span: Some(&materials.span) })
+        Ok(Replaced { names: materials.value.iter().map(id).collect::<Result<_, _>>()?, place: Some(&materials.place) })
     }
 
-    fn inline_mesh(&self, resolver: &mut Resolver<'_>, &Written { span, index, .. }: &Written<'_>) -> Result<Mesh, SceneError> {
+    fn inline_mesh(
+        &self,
+        resolver: &mut Resolver<'_>,
+        &Written { place: span, index, .. }: &Written<'_>,
+    ) -> Result<Mesh, SceneError> {
         let (Some(positions), Some(faces)) = (&self.positions, &self.faces) else {
             return Err(resolver.error(span, "a mesh needs the key `file`, or both `positions` and `faces`"));
         };
@@ -124,13 +148,13 @@ impl Keys {
         for face in faces {
             if let Some(index) = face.value.iter().find(|&&index| index as usize >= count) {
                 let message = format!("the face uses position {index}, but there are only {count} (counted from 0)");
-                return Err(resolver.error(&face.span, message));
+                return Err(resolver.error(&face.place, message));
             }
         }
         let lengths = [
-            ("uvs", self.uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.span))),
-            ("second_uvs", self.second_uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.span))),
-            ("normals", self.normals.as_ref().map(|normals| (normals.value.len(), &normals.span))),
+            ("uvs", self.uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.place))),
+            ("second_uvs", self.second_uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.place))),
+            ("normals", self.normals.as_ref().map(|normals| (normals.value.len(), &normals.place))),
         ];
         for (key, given) in lengths {
             if let Some((length, span)) = given

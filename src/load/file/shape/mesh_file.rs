@@ -1,7 +1,6 @@
 //! Meshes from files of models.
 
 use std::collections::{BTreeSet, HashMap};
-use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,8 +8,9 @@ use glam::{Vec2, Vec3};
 
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
-use crate::load::file::wording::did_you_mean_name;
+use crate::load::file::suggestion::did_you_mean_name;
 use crate::load::model::{ModelFile, ModelFormat, Part, Substitute};
+use crate::load::place::Place;
 use crate::load::{obj, ply};
 use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh, MeshSource};
 
@@ -23,7 +23,7 @@ pub struct Replaced<'a> {
     /// Name in the file, and what stands for it.
     pub names: Vec<(String, MaterialId)>,
     /// Where that is written.
-    pub span: Option<&'a Range<usize>>,
+    pub place: Option<&'a Place>,
 }
 
 impl Resolver<'_> {
@@ -36,14 +36,10 @@ impl Resolver<'_> {
         material: Option<MaterialId>,
         replaced: &Replaced<'_>,
     ) -> Result<LoadedMesh, SceneError> {
-        let Replaced { names: replaced, span } = replaced;
+        let Replaced { names: replaced, place: span } = replaced;
         let key = (path.to_owned(), smooth, material.is_none().then(|| replaced.to_vec()));
         if let Some(loaded) = self.mesh_files.get(&key) {
             return Ok(LoadedMesh { mesh: loaded.mesh.clone(), material: material.unwrap_or(loaded.material) });
-        }
-        if let Some(mesh) = self.files().held_mesh(path).cloned() {
-            let material = material.unwrap_or_else(|| self.material_of_unnamed_faces());
-            return Ok(LoadedMesh { mesh, material });
         }
         let mut file = match ModelFormat::of(path) {
             Some(ModelFormat::Ply) => ply::load(self.files(), path)?,
@@ -74,7 +70,7 @@ impl Resolver<'_> {
     }
 
     /// What is replaced is there.
-    fn check_replaced(&self, file: &ModelFile, replaced: &[(String, MaterialId)], span: &Range<usize>) -> Result<(), SceneError> {
+    fn check_replaced(&self, file: &ModelFile, replaced: &[(String, MaterialId)], span: &Place) -> Result<(), SceneError> {
         let numbers: BTreeSet<String> = file.face_groups.iter().flatten().map(u32::to_string).collect();
         let named = file.materials.iter().map(|entry| entry.name.as_str());
         let known: Vec<&str> = named.chain(numbers.iter().map(String::as_str)).collect();
@@ -145,7 +141,7 @@ impl Resolver<'_> {
     }
 
     /// A grey that every mesh file's faces without a material share.
-    fn material_of_unnamed_faces(&mut self) -> MaterialId {
+    pub fn material_of_unnamed_faces(&mut self) -> MaterialId {
         if let Some(id) = self.unnamed_material {
             return id;
         }

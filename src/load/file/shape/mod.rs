@@ -1,12 +1,18 @@
 //! `[[shape]]`: a file for each shape, with the keys it is written by.
 
-mod deformation;
+pub mod cuboid;
+pub mod cylinder;
+pub mod deformation;
+pub mod disk;
 mod keys;
+pub mod mesh;
 mod mesh_file;
 mod mesh_writer;
-mod transform;
+pub mod plane;
+pub mod rectangle;
+pub mod sphere;
+pub mod transform;
 
-use std::path::Path;
 use std::sync::Arc;
 
 use schemars::JsonSchema;
@@ -14,26 +20,22 @@ use serde::Deserialize;
 
 pub use self::transform::TransformEntry;
 
-use self::keys::{CommonKeys, ShapeKeys, Written};
-use self::mesh_file::Replaced;
-use super::resolver::{LoadedMesh, Resolver};
+use self::keys::{CommonKeys, CommonKeysMut, ShapeKeys, Written};
+use super::resolver::Resolver;
 use super::value::Located;
 use super::writer::Writer;
 use crate::load::error::SceneError;
-use crate::load::error::show;
 use crate::scene::animation::DeformationTrack;
 use crate::scene::shape::shape_table;
-use crate::scene::{Geometry, MaterialId, MaterialKind, Shape, Transform};
+use crate::scene::{Geometry, MaterialKind, Shape, Transform};
 
 /// The entries of a scene file, by the rows of the table of shapes.
 macro_rules! entries {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
-        $(mod $module;)*
-
         /// A surface.
-        #[derive(Debug, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case")]
-        #[schemars(tag = "type")]
+        #[derive(Debug, Clone, Deserialize, JsonSchema)]
+        #[serde(rename = "key:type", rename_all = "snake_case")]
+        #[schemars(tag = "type", rename = "ShapeEntry")]
         pub enum ShapeEntry {
             $($variant($module::Keys),)*
         }
@@ -42,7 +44,13 @@ macro_rules! entries {
         const EXAMPLES: &[(&str, &[&str])] = &[$(($name, $module::Keys::EXAMPLES),)*];
 
         impl ShapeEntry {
-            fn common(&self) -> CommonKeys<'_> {
+            pub fn common_mut(&mut self) -> CommonKeysMut<'_> {
+                match self {
+                    $(Self::$variant(keys) => keys.common_mut(),)*
+                }
+            }
+
+            pub fn common(&self) -> CommonKeys<'_> {
                 match self {
                     $(Self::$variant(keys) => keys.common(),)*
                 }
@@ -119,19 +127,19 @@ impl Resolver<'_> {
         let transform = common.transform.map_or(Ok(Transform::default()), |transform| self.transform(transform))?;
         let motion = common.motion.map_or(Ok(None), |motion| self.motion(motion))?;
         let material = common.material.map(|name| self.material_id(name)).transpose()?;
-        let mut written = Written { span: &entry.span, index, material };
+        let mut written = Written { place: &entry.place, index, material };
         let geometry = entry.value.geometry(self, &mut written)?;
-        let Some(material) = written.material else { return Err(self.error(&entry.span, "the key `material` is missing")) };
+        let Some(material) = written.material else { return Err(self.error(&entry.place, "the key `material` is missing")) };
         if let Some(written) = common.transform
             && geometry.is_round()
             && transform.uniform_scale().is_none()
         {
             let help = "use a mesh for an ellipsoid or an ellipse";
-            return Err(self.error(&written.span, geometry.stays_round()).with_help(help));
+            return Err(self.error(&written.place, geometry.stays_round()).with_help(help));
         }
         let label = format!("shape[{index}] ({})", geometry.kind_name());
         let shape = Shape { label, geometry, material, transform, motion, portal: common.portal };
-        let place = common.transform.map_or(&entry.span, |written| &written.span);
+        let place = common.transform.map_or(&entry.place, |written| &written.place);
         shape.check_place().map_err(|message| self.error(place, message))?;
         common.motion.map_or(Ok(()), |written| self.check_motion(written, &shape))?;
         Ok(shape)
@@ -140,13 +148,13 @@ impl Resolver<'_> {
     /// Rays must be able to go through a portal, and every direction is tested against every portal.
     fn check_portal(&mut self, entry: &Located<ShapeEntry>, shape: &Shape) -> Result<(), SceneError> {
         if shape.geometry.is_infinite() {
-            return Err(self.error(&entry.span, "a plane cannot be a portal: no density covers it evenly"));
+            return Err(self.error(&entry.place, "a plane cannot be a portal: no density covers it evenly"));
         }
         let earlier: usize = self.scene.shapes.iter().filter(|shape| shape.portal).map(|shape| shape.geometry.faces()).sum();
         let faces = earlier + shape.geometry.faces();
         if faces > MOST_PORTAL_FACES {
             let message = format!("the portals up to here have {faces} faces, at most {MOST_PORTAL_FACES} are possible");
-            return Err(self.error(&entry.span, message).with_help("stand a rectangle in front of the opening"));
+            return Err(self.error(&entry.place, message).with_help("stand a rectangle in front of the opening"));
         }
         let is_pass = |id: usize| matches!(self.scene.materials[id].kind, MaterialKind::Pass);
         // A surface that emits is sampled as the light it is.
@@ -168,36 +176,10 @@ impl Resolver<'_> {
             Some(material) => {
                 let name = &self.scene.materials[material].name;
                 let message = format!("the material `{name}` uses a texture, which needs uv coordinates: {lacking}");
-                let span = entry.value.common().material.map_or(&entry.span, |name| &name.span);
+                let span = entry.value.common().material.map_or(&entry.place, |name| &name.place);
                 Err(self.error(span, message))
             }
             None => Ok(()),
         }
-    }
-
-    /// A whole scene of one model with the materials of its file, or one for all.
-    pub(super) fn lone_mesh(
-        &mut self,
-        path: &Path,
-        smooth: Option<bool>,
-        material: Option<MaterialId>,
-    ) -> Result<(), SceneError> {
-        let LoadedMesh { mesh, material } = self.mesh_file(path, smooth, material, &Replaced::default())?;
-        self.scene.shapes.push(Shape {
-            label: show(path),
-            geometry: Geometry::Mesh(mesh),
-            material,
-            transform: Transform::default(),
-            motion: None,
-            portal: false,
-        });
-        self.scene.shapes[0].check_place().map_err(|message| SceneError::in_file(show(path), message))?;
-        let lacking = self.scene.shapes[0].geometry.lacks_uv();
-        if let (Some(lacking), true) = (lacking, self.uses_texture(material)) {
-            let name = &self.scene.materials[material].name;
-            let message = format!("the material `{name}` uses a texture, which needs uv coordinates: {lacking}");
-            return Err(SceneError::in_file(show(path), message));
-        }
-        Ok(())
     }
 }

@@ -1,16 +1,30 @@
 //! `type = "plane"`
 
-use super::keys::{ShapeKeys, Written, shape_keys};
+use glam::DVec3;
+
+use super::keys::{ShapeKeys, Written, plain_keys, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Located, Vector, vector};
+use crate::load::file::value::{Exactly, Located, Vector, vector};
 use crate::load::file::writer::{self, Writer, direction, line};
+use crate::load::place::Place;
 use crate::scene::{Plane, Shape};
 
 shape_keys! {
     /// Infinite.
     #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "PlaneShape" { point: Vector, normal: Located<Vector> }
+}
+
+impl Keys {
+    /// A plane.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of(point: DVec3, normal: DVec3, place: &Place) -> Result<Self, String> {
+        let normal = place.at(Exactly::of(normal.to_array())?);
+        Ok(plain_keys!(point: Exactly::of(point.to_array())?, normal: normal))
+    }
 }
 
 impl ShapeKeys for Keys {

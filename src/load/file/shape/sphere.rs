@@ -1,9 +1,11 @@
 //! `type = "sphere"`
 
-use super::keys::{ShapeKeys, Written, shape_keys};
+use glam::DVec3;
+
+use super::keys::{ShapeKeys, Written, plain_keys, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Positive, Vector, vector};
+use crate::load::file::value::{Checked, Exactly, Positive, Vector, vector};
 use crate::load::file::writer::{self, Writer, line, number};
 use crate::scene::{Shape, Sphere};
 
@@ -11,6 +13,16 @@ shape_keys! {
     /// The normal points outward.
     #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "SphereShape" { center: Vector, radius: Checked<Positive> }
+}
+
+impl Keys {
+    /// A sphere.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of(center: DVec3, radius: f64) -> Result<Self, String> {
+        Ok(plain_keys!(center: Exactly::of(center.to_array())?, radius: Checked::of(radius)?))
+    }
 }
 
 impl ShapeKeys for Keys {

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::fmt;
-use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -13,19 +12,21 @@ use serde::{Deserialize, Deserializer};
 use crate::load::error::SceneError;
 use crate::load::file::colour::any_of;
 use crate::load::file::keyframes::ScaleEntry;
+use crate::load::file::place_file::{PLACE_NUMBERS, place_rows};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
+use crate::load::place::Place;
 use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep, is_singular};
 
 /// Steps applied in their order, or one matrix.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum TransformEntry {
     Steps(Vec<Located<StepEntry>>),
     Single(Box<StepEntry>),
 }
 
 /// One step: exactly one of `scale`, `rotate`, `translate`, `matrix`.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table with one of the keys `scale`, `rotate`, `translate` and `matrix`")]
 #[schemars(extend("oneOf" = [
     { "required": ["scale"] }, { "required": ["rotate", "degrees"] }, { "required": ["translate"] }, { "required": ["matrix"] }
@@ -40,6 +41,38 @@ pub struct StepEntry {
     pub translate: Option<Vector>,
     /// 16 numbers, row by row; the last row is 0 0 0 1.
     pub matrix: Option<Located<Exactly<Number, 16>>>,
+}
+
+impl TransformEntry {
+    /// The matrix of a map; None of the identity.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of_map(map: &DAffine3, place: &Place) -> Result<Option<Located<Self>>, String> {
+        if *map == DAffine3::IDENTITY {
+            return Ok(None);
+        }
+        let mut numbers = [0.0; 16];
+        numbers[..PLACE_NUMBERS].copy_from_slice(&place_rows(map));
+        numbers[15] = 1.0;
+        let matrix = Some(place.at(Exactly::of(numbers)?));
+        let step = StepEntry { scale: None, rotate: None, degrees: None, translate: None, matrix };
+        Ok(Some(place.at(Self::Single(Box::new(step)))))
+    }
+
+    /// The map of what [`Self::of_map`] made; None of steps.
+    pub fn map(&self) -> Option<DAffine3> {
+        match self {
+            Self::Single(step) => step.matrix.as_ref().map(|matrix| affine(&matrix.value)),
+            Self::Steps(_) => None,
+        }
+    }
+}
+
+/// The map of a matrix whose numbers are row by row.
+fn affine(rows: &Exactly<Number, 16>) -> DAffine3 {
+    let column = |index: usize| DVec3::new(rows[index].0, rows[4 + index].0, rows[8 + index].0);
+    DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
 }
 
 impl<'de> Deserialize<'de> for TransformEntry {
@@ -74,14 +107,14 @@ impl Resolver<'_> {
     pub(in crate::load::file) fn transform(&self, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
         let steps = match &written.value {
             TransformEntry::Steps(steps) => {
-                steps.iter().map(|step| self.step(&step.span, &step.value)).collect::<Result<_, _>>()?
+                steps.iter().map(|step| self.step(&step.place, &step.value)).collect::<Result<_, _>>()?
             }
-            TransformEntry::Single(step) => vec![self.step(&written.span, step)?],
+            TransformEntry::Single(step) => vec![self.step(&written.place, step)?],
         };
         let transform = Transform { steps };
         let map = transform.to_affine();
         if !map.is_finite() || is_singular(map.matrix3) {
-            return Err(self.error(&written.span, "the transform flattens the shape or leaves the range of numbers"));
+            return Err(self.error(&written.place, "the transform flattens the shape or leaves the range of numbers"));
         }
         Ok(transform)
     }
@@ -90,14 +123,14 @@ impl Resolver<'_> {
     pub(in crate::load::file) fn motion(&self, written: &Located<TransformEntry>) -> Result<Option<Motion>, SceneError> {
         let steps: Vec<MotionStep> = match &written.value {
             TransformEntry::Steps(steps) => {
-                steps.iter().map(|step| self.motion_step(&step.span, &step.value)).collect::<Result<_, _>>()?
+                steps.iter().map(|step| self.motion_step(&step.place, &step.value)).collect::<Result<_, _>>()?
             }
-            TransformEntry::Single(step) => vec![self.motion_step(&written.span, step)?],
+            TransformEntry::Single(step) => vec![self.motion_step(&written.place, step)?],
         };
         Ok((!steps.is_empty()).then_some(Motion::new(steps)))
     }
 
-    fn motion_step(&self, span: &Range<usize>, written: &StepEntry) -> Result<MotionStep, SceneError> {
+    fn motion_step(&self, span: &Place, written: &StepEntry) -> Result<MotionStep, SceneError> {
         match self.step(span, written)? {
             TransformStep::Scale(factors) => Ok(MotionStep::Scale(factors)),
             TransformStep::Rotate { axis, degrees } => Ok(MotionStep::Rotate { axis, degrees }),
@@ -112,23 +145,23 @@ impl Resolver<'_> {
     pub(super) fn check_motion(&self, written: &Located<TransformEntry>, shape: &Shape) -> Result<(), SceneError> {
         shape.check_motion(self.scene.camera.shutter).map_err(|(step, message)| {
             let span = match (&written.value, step) {
-                (TransformEntry::Steps(steps), Some(step)) => &steps[step].span,
-                _ => &written.span,
+                (TransformEntry::Steps(steps), Some(step)) => &steps[step].place,
+                _ => &written.place,
             };
             self.error(span, message)
         })
     }
 
-    fn step(&self, span: &Range<usize>, written: &StepEntry) -> Result<TransformStep, SceneError> {
+    fn step(&self, span: &Place, written: &StepEntry) -> Result<TransformStep, SceneError> {
         if let Some(degrees) = &written.degrees
             && written.rotate.is_none()
         {
-            return Err(self.error(&degrees.span, "`degrees` belongs to `rotate`, which is missing"));
+            return Err(self.error(&degrees.place, "`degrees` belongs to `rotate`, which is missing"));
         }
         let mut steps = Vec::with_capacity(1);
         if let Some(scale) = &written.scale {
             if scale.value.0.abs().min_element() == 0.0 {
-                return Err(self.error(&scale.span, "a scale of 0 flattens the shape"));
+                return Err(self.error(&scale.place, "a scale of 0 flattens the shape"));
             }
             steps.push(TransformStep::Scale(scale.value.0));
         }
@@ -155,9 +188,8 @@ impl Resolver<'_> {
     fn matrix(&self, written: &Located<Exactly<Number, 16>>) -> Result<DAffine3, SceneError> {
         let rows = written.value.map(|number| number.0);
         if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
-            return Err(self.error(&written.span, "the last row of a matrix is 0, 0, 0, 1 (numbers are row by row)"));
+            return Err(self.error(&written.place, "the last row of a matrix is 0, 0, 0, 1 (numbers are row by row)"));
         }
-        let column = |index: usize| DVec3::new(rows[index], rows[4 + index], rows[8 + index]);
-        Ok(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
+        Ok(affine(&written.value))
     }
 }

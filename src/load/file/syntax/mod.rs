@@ -1,7 +1,7 @@
 //! The scene file as it is written: one type per table. The JSON Schema is generated from these types.
 //!
-//! A table whose shape depends on a key (`type` mostly) is an enum with one struct per value of that key, whose name stands in the table of
-//! [`super::reader`].
+//! A table whose shape depends on a key (`type` mostly) is an enum with one struct per value of that key; its name for serde is that key
+//! ([`super::reader`]).
 
 mod output;
 mod render;
@@ -14,7 +14,7 @@ use serde::Deserialize;
 
 pub use output::OutputTable;
 pub use render::RenderTable;
-pub use texture::{ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
+pub use texture::{CheckerEntry, ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::import::ImportEntry;
 use super::instance::{GroupEntry, InstanceEntry};
@@ -25,19 +25,29 @@ use super::node::NodeEntry;
 use super::shape::ShapeEntry;
 use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 
+/// The version of the scene format that is read and written.
+pub const FORMAT_VERSION: u32 = 1;
+
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 #[schemars(title = "gpt scene")]
 #[schemars(extend("required" = [], "anyOf" = [{ "required": ["camera"] }, { "required": ["import"] }]))]
 pub struct SceneFile {
+    /// Version of the scene format: 1, also when left out. A file of a newer version is refused.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 1, "maximum" = FORMAT_VERSION))]
+    #[allow(dead_code, reason = "`Document` looks at it before it reads the rest")]
+    pub version: Option<NonZeroU32>,
     #[serde(default)]
     pub film: FilmTable,
     #[serde(default)]
     pub render: RenderTable,
     #[serde(default)]
     pub output: OutputTable,
-    pub camera: CameraTable,
+    /// It may come from an imported file.
+    #[serde(default)]
+    pub camera: Option<CameraTable>,
     #[serde(default)]
     pub animation: Option<AnimationTable>,
     #[serde(default)]
@@ -54,47 +64,12 @@ pub struct SceneFile {
     pub instance: Vec<Located<InstanceEntry>>,
     #[serde(default)]
     pub light: Vec<Located<LightEntry>>,
-    /// Read before the rest, which then has what is imported.
     #[serde(default)]
-    #[allow(dead_code, reason = "`file::import` reads it by itself")]
-    import: Vec<ImportEntry>,
-}
-
-/// A scene file of which anything may be missing, to find what is wrong with the rest.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a scene")]
-#[allow(dead_code, reason = "it is read for its mistakes alone")]
-pub struct PartOfFile {
-    #[serde(default)]
-    film: Option<FilmTable>,
-    #[serde(default)]
-    render: Option<RenderTable>,
-    #[serde(default)]
-    output: Option<OutputTable>,
-    #[serde(default)]
-    camera: Option<CameraTable>,
-    #[serde(default)]
-    animation: Option<AnimationTable>,
-    #[serde(default)]
-    node: Vec<Located<NodeEntry>>,
-    #[serde(default)]
-    pub texture: Vec<TextureEntry>,
-    #[serde(default)]
-    pub material: Vec<MaterialEntry>,
-    #[serde(default)]
-    shape: Vec<Located<ShapeEntry>>,
-    #[serde(default)]
-    group: Vec<GroupEntry>,
-    #[serde(default)]
-    instance: Vec<Located<InstanceEntry>>,
-    #[serde(default)]
-    light: Vec<Located<LightEntry>>,
-    #[serde(default)]
-    import: Vec<ImportEntry>,
+    pub import: Vec<ImportEntry>,
 }
 
 /// The picture.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct FilmTable {
     /// Width and height in pixels, 512 × 512 when left out.
@@ -105,9 +80,9 @@ pub struct FilmTable {
 }
 
 /// The shape around a pixel's centre by which its samples are drawn.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(tag = "type")]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(rename = "key:type", rename_all = "snake_case")]
+#[schemars(tag = "type", rename = "FilterEntry")]
 pub enum FilterEntry {
     Box(FilterKeys),
     Tent(FilterKeys),
@@ -115,7 +90,7 @@ pub enum FilterEntry {
     BlackmanHarris(FilterKeys),
 }
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct FilterKeys {
     /// Half the filter's width in pixels; 0.5 for a box, 1 for a tent, 1.5 for gaussian and 2 for blackman_harris when left out.
@@ -123,7 +98,7 @@ pub struct FilterKeys {
 }
 
 /// Where the picture is taken from.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(extend("dependentRequired" = { "aperture": ["focus_distance"], "interpolation": ["keyframes"] }, "allOf" = [{ "oneOf": [
     { "required": ["vfov"], "not": { "required": ["height"] }, "properties": { "projection": { "const": "perspective" } } },
@@ -171,23 +146,23 @@ pub enum ProjectionName {
 }
 
 /// The opening of a thin lens.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(tag = "shape")]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(rename = "key:shape", rename_all = "snake_case")]
+#[schemars(tag = "shape", rename = "ApertureEntry")]
 pub enum ApertureEntry {
     Disk(RoundAperture),
     Square(RoundAperture),
     Polygon(PolygonAperture),
 }
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct RoundAperture {
     /// Radius of a disk, half the side of a square.
     pub radius: Checked<NonNegative>,
 }
 
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct PolygonAperture {
     /// Radius of the circle through the corners.

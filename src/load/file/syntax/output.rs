@@ -1,24 +1,26 @@
 //! `[output]`: what is written beside the picture.
 
 use std::borrow::Cow;
+use std::sync::LazyLock;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 use serde_json::json;
 
-use super::render::not_among;
 use crate::choice::Choice;
 use crate::film::Layer;
 
 /// What is written beside the picture. Command-line flags override these.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct OutputTable {
     /// Layers that .exr files hold beside the picture; none when left out.
     #[serde(default)]
     pub aov: Vec<LayerName>,
 }
+
+static LAYER_NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| Layer::NAMES.iter().map(|known| known.name).collect());
 
 /// A layer by the name that `--aov` has for it.
 #[derive(Debug, Clone, Copy)]
@@ -27,8 +29,7 @@ pub struct LayerName(pub Layer);
 impl<'de> Deserialize<'de> for LayerName {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let name = Cow::<str>::deserialize(deserializer)?;
-        let known = Layer::NAMES.iter().map(|known| known.name);
-        Layer::from_name(&name).map(Self).ok_or_else(|| D::Error::custom(not_among("unknown variant", &name, known)))
+        Layer::from_name(&name).map(Self).ok_or_else(|| D::Error::unknown_variant(&name, &LAYER_NAMES))
     }
 }
 

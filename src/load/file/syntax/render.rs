@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use std::sync::LazyLock;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
@@ -10,8 +11,21 @@ use serde_json::{Map, json};
 use crate::scene::settings::{Assignment, SETTINGS, Setting, Values};
 
 /// What is written in `[render]`.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct RenderTable(pub Vec<Assignment>);
+
+impl RenderTable {
+    /// Sets a setting to a number or a name, as text.
+    ///
+    /// # Errors
+    /// A sentence about a value that the setting cannot have.
+    pub fn set(&mut self, name: &'static str, value: &str) -> Result<(), String> {
+        let setting = Setting::find(name).ok_or_else(|| format!("there is no setting `{name}`"))?;
+        let assignment = setting.text(value).map_err(|expected| format!("`{name}`: expected {expected}, found {value}"))?;
+        self.0.push(assignment);
+        Ok(())
+    }
+}
 
 impl<'de> Deserialize<'de> for RenderTable {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -56,8 +70,7 @@ impl Visitor<'_> for Key {
     }
 
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
-        let known = SETTINGS.iter().map(|setting| setting.name);
-        Setting::find(name).ok_or_else(|| E::custom(not_among("unknown field", name, known)))
+        Setting::find(name).ok_or_else(|| E::unknown_field(name, &SETTING_NAMES))
     }
 }
 
@@ -97,17 +110,26 @@ impl Visitor<'_> for Written {
 
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
         self.0.name(name).map_err(|expected| match self.0.values {
-            Values::Names(names) => E::custom(not_among("unknown variant", name, names.iter().map(|name| name.name))),
+            Values::Names(_) => E::unknown_variant(name, choices(self.0)),
             Values::WholeOr(..) => E::invalid_value(Unexpected::Str(name), &expected.as_str()),
             Values::Whole(..) | Values::Real(..) => E::invalid_type(Unexpected::Str(name), &expected.as_str()),
         })
     }
 }
 
-/// A complaint in serde's words, which [`super::super::wording`] puts into a scene file's.
-pub(super) fn not_among(what: &str, name: &str, known: impl Iterator<Item = &'static str>) -> String {
-    let known: Vec<String> = known.map(|known| format!("`{known}`")).collect();
-    format!("{what} `{name}`, expected one of {}", known.join(", "))
+static SETTING_NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| SETTINGS.iter().map(|setting| setting.name).collect());
+
+/// The names of all values of settings that have names, in the order of the settings.
+static CHOICES: LazyLock<Vec<Vec<&'static str>>> = LazyLock::new(|| {
+    let names = |values: &Values| {
+        if let Values::Names(names) = values { names.iter().map(|name| name.name).collect() } else { Vec::new() }
+    };
+    SETTINGS.iter().map(|setting| names(&setting.values)).collect()
+});
+
+/// The names of a setting's values.
+fn choices(setting: &Setting) -> &'static [&'static str] {
+    SETTING_NAMES.iter().position(|name| *name == setting.name).map_or(&[], |index| &CHOICES[index])
 }
 
 impl JsonSchema for RenderTable {

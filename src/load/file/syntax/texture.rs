@@ -6,12 +6,14 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::load::file::colour::Rgb;
+use crate::load::file::reference::{FileOr, TextureName};
 use crate::load::file::value::{Any, Checked, Exactly, Located, Number, Positive};
+use crate::load::image_file::EmbeddedFile;
 
 /// A colour that varies over a surface.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(tag = "type")]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(rename = "key:type", rename_all = "snake_case")]
+#[schemars(tag = "type", rename = "TextureEntry")]
 pub enum TextureEntry {
     Image(ImageEntry),
     Checker(CheckerEntry),
@@ -29,14 +31,22 @@ pub struct CommonKeys<'e> {
     pub second_uvs: Option<bool>,
     pub bends_by_first_uvs: Option<bool>,
     /// The texture by which it is multiplied.
-    pub times: Option<&'e Located<String>>,
+    pub times: Option<&'e Located<TextureName>>,
+}
+
+/// The same to be changed.
+pub struct CommonKeysMut<'e> {
+    pub name: &'e mut Located<String>,
+    pub rotation: &'e mut Option<Number>,
+    pub offset: &'e mut Option<Exactly<Number, 2>>,
+    pub times: &'e mut Option<Located<TextureName>>,
 }
 
 /// Kinds of textures by the keys of their own, to which it adds those that all have.
 macro_rules! texture_entries {
     ($($(#[$about:meta])* $entry:ident { $($(#[$key_about:meta])* $key:ident: $type:ty,)* })*) => {$(
         $(#[$about])*
-        #[derive(Debug, Deserialize, JsonSchema)]
+        #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         pub struct $entry {
             #[schemars(extend("minLength" = 1))]
@@ -51,10 +61,15 @@ macro_rules! texture_entries {
             /// A normal map with `second_uvs` and this key has red and green along the directions in which `uvs` grow.
             pub bends_by_first_uvs: Option<bool>,
             /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
-            pub times: Option<Located<String>>,
+            pub times: Option<Located<TextureName>>,
         }
 
         impl $entry {
+            fn common_mut(&mut self) -> CommonKeysMut<'_> {
+                let Self { name, rotation, offset, times, .. } = self;
+                CommonKeysMut { name, rotation, offset, times }
+            }
+
             fn common(&self) -> CommonKeys<'_> {
                 let Self { name, rotation, offset, second_uvs, bends_by_first_uvs, times, .. } = self;
                 let (second_uvs, bends_by_first_uvs) = (*second_uvs, *bends_by_first_uvs);
@@ -68,7 +83,7 @@ texture_entries! {
     /// A picture file, looked up by uv.
     ImageEntry {
         /// Path relative to the scene file.
-        file: Located<String>,
+        file: Located<FileOr<EmbeddedFile>>,
         /// "srgb" for integer formats, "linear" for floating-point ones when left out.
         color_space: Option<ColorSpaceEntry>,
         /// The way the texture goes on beyond the picture; "repeat" when left out.
@@ -120,7 +135,7 @@ pub enum ColorSpaceEntry {
     Linear,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WrapEntry {
     Repeat,
@@ -138,7 +153,50 @@ pub enum TextureFilterEntry {
     Triangle,
 }
 
+impl ImageEntry {
+    /// The picture of a file as it is.
+    pub fn of_file(name: Located<String>, file: Located<FileOr<EmbeddedFile>>) -> Self {
+        Self {
+            name,
+            file,
+            color_space: None,
+            wrap: None,
+            wrap_v: None,
+            filter: None,
+            scale: None,
+            fallback: None,
+            rotation: None,
+            offset: None,
+            second_uvs: None,
+            bends_by_first_uvs: None,
+            times: None,
+        }
+    }
+}
+
 impl TextureEntry {
+    pub fn name(&self) -> &str {
+        &self.common().name.value
+    }
+
+    /// Factors of u and v, of textures that have two.
+    pub fn scale_mut(&mut self) -> Option<&mut Option<Exactly<Number, 2>>> {
+        match self {
+            Self::Image(entry) => Some(&mut entry.scale),
+            Self::Checker(entry) => Some(&mut entry.scale),
+            Self::Perlin(_) | Self::Worley(_) => None,
+        }
+    }
+
+    pub fn common_mut(&mut self) -> CommonKeysMut<'_> {
+        match self {
+            Self::Image(entry) => entry.common_mut(),
+            Self::Checker(entry) => entry.common_mut(),
+            Self::Perlin(entry) => entry.common_mut(),
+            Self::Worley(entry) => entry.common_mut(),
+        }
+    }
+
     /// What it has whatever its kind.
     pub fn common(&self) -> CommonKeys<'_> {
         match self {

@@ -9,14 +9,14 @@ mod value;
 use std::sync::Arc;
 
 pub use names::Names;
-use picture::picture;
+use picture::{picture, picture_format};
 pub use ply::ply;
 pub use side_files::SideFiles;
 use side_files::is_on_disk;
 pub use value::{colour, direction, flag, numbers, pair_f32, vector, vector_f32};
 
 pub use crate::load::toml_text::{line, list, number, table, text};
-use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Mesh, MeshSource, Scene, Shape};
+use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, ImageSource, Mesh, MeshSource, Scene, Shape};
 
 /// A scene file in the making.
 pub struct Writer<'s> {
@@ -54,14 +54,20 @@ impl Writer<'_> {
         line("material", &self.materials.quoted(shape.material))
     }
 
-    /// The file that a picture came from, or else one beside the scene file; the colour space that it is read in, and the factor of its values.
+    /// The file that a picture came from, or else one beside the scene file, once for all that show the picture; the colour space that it is read in, and the factor of its values.
     pub fn image(&mut self, image: &Arc<ImageData>) -> (String, Option<ColorSpace>, f64) {
-        match self.scene.sources.image(image).filter(|source| is_on_disk(&source.path)) {
-            Some(source) => (self.files.name_of(&source.path), source.color_space, source.scale),
-            None => {
-                let (ending, space, content) = picture(image);
-                let name = format!("picture-{}.{ending}", self.files.len() + 1);
-                (self.files.add(&name, content), Some(space), 1.0)
+        let scene = self.scene;
+        match scene.sources.image(image) {
+            Some(ImageSource { embedded: Some(content), path, color_space, scale }) => {
+                let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+                let name = self.files.add_picture(content.as_ptr() as usize, &ending, || content.to_vec());
+                (name, *color_space, *scale)
+            }
+            Some(source) if is_on_disk(&source.path) => (self.files.name_of(&source.path), source.color_space, source.scale),
+            _ => {
+                let (ending, space) = picture_format(image);
+                let name = self.files.add_picture(Arc::as_ptr(image) as usize, ending, || picture(image));
+                (name, Some(space), 1.0)
             }
         }
     }

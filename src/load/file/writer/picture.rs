@@ -17,29 +17,37 @@ macro_rules! exr {
     }};
 }
 
-/// Ending, colour space and content of a picture's file.
-pub fn picture(image: &ImageData) -> (&'static str, ColorSpace, Vec<u8>) {
+/// Ending and colour space of a picture's file.
+pub fn picture_format(image: &ImageData) -> (&'static str, ColorSpace) {
+    match &image.texels {
+        Texels::Bytes { space, .. } | Texels::Shorts { space, .. } => ("png", *space),
+        Texels::Half(_) | Texels::Float(_) | Texels::FloatAlpha(_) => ("exr", ColorSpace::Linear),
+    }
+}
+
+/// Content of a picture's file.
+pub fn picture(image: &ImageData) -> Vec<u8> {
     let size @ [width, height] = [image.width, image.height];
     match &image.texels {
-        Texels::Bytes { codes, space } => {
+        Texels::Bytes { codes, .. } => {
             let pixels = ImageBuffer::<Rgba<u8>, _>::from_raw(width, height, codes.as_flattened());
-            ("png", *space, written(|bytes| pixels.map(|pixels| pixels.write_to(bytes, ImageFormat::Png).is_ok())))
+            written(|bytes| pixels.map(|pixels| pixels.write_to(bytes, ImageFormat::Png).is_ok()))
         }
-        Texels::Shorts { codes, space } => {
+        Texels::Shorts { codes, .. } => {
             let pixels = ImageBuffer::<Rgba<u16>, _>::from_raw(width, height, codes.as_flattened());
-            ("png", *space, written(|bytes| pixels.map(|pixels| pixels.write_to(bytes, ImageFormat::Png).is_ok())))
+            written(|bytes| pixels.map(|pixels| pixels.write_to(bytes, ImageFormat::Png).is_ok()))
         }
         Texels::Half(texels) => {
             let texel = |at: Vec2<usize>| texels[place(at, size)].map(f16::from_bits).into();
-            ("exr", ColorSpace::Linear, exr!(size, SpecificChannels::rgba(texel)))
+            exr!(size, SpecificChannels::rgba(texel))
         }
         Texels::Float(texels) => {
             let texel = |at: Vec2<usize>| texels[place(at, size)].into();
-            ("exr", ColorSpace::Linear, exr!(size, SpecificChannels::rgb::<f32, f32, f32>(texel)))
+            exr!(size, SpecificChannels::rgb::<f32, f32, f32>(texel))
         }
         Texels::FloatAlpha(texels) => {
             let texel = |at: Vec2<usize>| texels[place(at, size)].into();
-            ("exr", ColorSpace::Linear, exr!(size, SpecificChannels::rgba::<f32, f32, f32, f32>(texel)))
+            exr!(size, SpecificChannels::rgba::<f32, f32, f32, f32>(texel))
         }
     }
 }

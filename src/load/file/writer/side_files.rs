@@ -1,5 +1,6 @@
 //! Files beside a scene file, and how it names files.
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
@@ -13,6 +14,8 @@ pub struct SideFiles {
     /// The folder of the files, within that.
     subfolder: String,
     files: Vec<(PathBuf, Vec<u8>)>,
+    /// How the scene file names pictures, by their addresses.
+    pictures: HashMap<usize, String>,
 }
 
 impl SideFiles {
@@ -20,7 +23,7 @@ impl SideFiles {
         let folder = scene_file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let stem = scene_file.file_stem().unwrap_or_default().to_string_lossy();
         let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
-        Self { folder, subfolder: format!("{stem}.files"), files: Vec::new() }
+        Self { folder, subfolder: format!("{stem}.files"), files: Vec::new(), pictures: HashMap::new() }
     }
 
     /// Adds a file; how the scene file names it, in quotes.
@@ -33,6 +36,16 @@ impl SideFiles {
         let within = format!("{}/{name}", self.subfolder);
         self.files.push((self.folder.join(&within), content));
         within
+    }
+
+    /// Adds the picture at an address, once; how the scene file names it, in quotes.
+    pub fn add_picture(&mut self, address: usize, ending: &str, content: impl FnOnce() -> Vec<u8>) -> String {
+        if let Some(name) = self.pictures.get(&address) {
+            return name.clone();
+        }
+        let name = self.add(&format!("picture-{}.{ending}", self.len() + 1), content());
+        self.pictures.insert(address, name.clone());
+        name
     }
 
     /// The folder of the scene file.

@@ -9,7 +9,6 @@ use serde_json::{Value, json};
 use super::*;
 use crate::load::files::Files;
 use crate::load::gltf::load;
-use crate::load::import::{HeldContent, Text, write_ply};
 
 /// Keys of the table that are tested elsewhere: numbers that are packed, and the rest of a buffer whose views are all packed.
 const ELSEWHERE: [&str; 2] = ["PACKED", "STAND_IN"];
@@ -162,15 +161,7 @@ fn made_of(root: &Value) -> (Vec<u8>, String) {
     match load(&Files::default(), &path, None, Some("shown")) {
         Err(error) => (Vec::new(), error.to_string().replace(&*folder.path().to_string_lossy(), "")),
         Ok(description) => {
-            let mut text = Text::default();
-            text.push(&description, &|file| description.held_path(file).to_string_lossy().into_owned());
-            let mut bytes = text.text.into_bytes();
-            for (_, content) in &description.held {
-                match content {
-                    HeldContent::Mesh(mesh) => bytes.extend(write_ply(mesh)),
-                    HeldContent::Bytes(held) => bytes.extend(&held[..]),
-                }
-            }
+            let bytes = format!("{:?}", description.file).into_bytes();
             let items = description.report.dropped.iter().chain(&description.report.approximated);
             (bytes, items.map(|item| format!("{} {} {}\n", item.what, item.count, item.instead)).collect())
         }

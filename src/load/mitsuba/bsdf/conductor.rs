@@ -6,10 +6,13 @@ use glam::DVec3;
 
 use super::keyed::Keyed;
 use crate::load::error::SceneError;
-use crate::load::import::Keys;
+use crate::load::file::colour::{Rgb, Scalar};
+use crate::load::file::material::roughness::{DistributionEntry, MaskingEntry};
+use crate::load::file::material::{MaterialEntry, conductor as entry, mirror};
+use crate::load::file::value::{Fraction, Located};
+use crate::load::import::Input;
 use crate::load::mitsuba::converter::Converter;
-use crate::load::mitsuba::input::Input;
-use crate::load::mitsuba::metals;
+use crate::load::mitsuba::metals::{self, Metal};
 use crate::load::mitsuba::plugin::{Plugin, PropertyValue};
 
 pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
@@ -25,30 +28,35 @@ pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed
         Some(name) => Some(metals::conductor(name).unwrap_or_else(|| {
             let what = format!("conductor of the material `{name}`");
             converter.approximate(plugin, &what, "chromium is taken");
-            metals::conductor("cr").unwrap_or_default()
+            metals::conductor("cr").unwrap_or(Metal::Preset(entry::MetalEntry::Aluminium))
         })),
     };
     let rough = plugin.name == "roughconductor";
-    let Some(fresnel) = fresnel else {
+    let place = plugin.at();
+    if let (None, false) = (&fresnel, rough) {
         // Reflects all light: what is left is the tint.
-        if !rough {
-            return Ok((Keys::of_type("mirror").with("reflectance", tint.value()), false));
+        let reflectance = Some(plugin.possible(tint.colour(&place))?);
+        return Ok((MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }), false));
+    }
+    let mut keys = entry::Keys::default();
+    match fresnel {
+        Some(Metal::Preset(preset)) => keys.preset = Some(place.at(preset)),
+        Some(Metal::Constants { eta, k }) => {
+            keys.eta = Some(place.at(plugin.possible(Rgb::of(eta))?));
+            keys.k = Some(place.at(plugin.possible(Rgb::of(k))?));
         }
-        let mut keys = Keys::of_type("conductor").with("reflectance", 1.0);
-        if tint.constant() != Some(DVec3::ONE) {
-            keys.set("specular_reflectance", tint.value());
-        }
-        return Ok((with_roughness(converter, plugin, keys)?, false));
-    };
-    let mut keys = Keys::of_type("conductor");
-    keys.0.extend(fresnel.0);
+        None => keys.reflectance = Some(place.at(plugin.possible(Input::grey(1.0).colour(&place))?)),
+    }
     if tint.constant() != Some(DVec3::ONE) {
-        keys.set("specular_reflectance", tint.value());
+        keys.specular_reflectance = Some(plugin.possible(tint.colour(&place))?);
     }
     if rough {
-        keys = with_roughness(converter, plugin, keys)?;
+        let Widths { alpha, alpha_u, alpha_v } = widths(converter, plugin)?;
+        (keys.alpha, keys.alpha_u, keys.alpha_v) = (alpha, alpha_u, alpha_v);
+        keys.distribution = distribution(converter, plugin)?.then(|| place.at(DistributionEntry::Beckmann));
+        keys.masking = Some(place.at(MaskingEntry::Separable));
     }
-    Ok((keys, false))
+    Ok((MaterialEntry::Conductor(keys), false))
 }
 
 fn is_none(material: &str) -> bool {
@@ -56,7 +64,7 @@ fn is_none(material: &str) -> bool {
 }
 
 /// `eta` and `k`, relative to what is outside.
-fn complex(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keys, SceneError> {
+fn complex(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Metal, SceneError> {
     let mut constant = |name: &str, default: f64| -> Result<DVec3, SceneError> {
         let input = converter.surface_number(plugin, name, default)?;
         if input.constant().is_none() {
@@ -69,7 +77,7 @@ fn complex(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keys, Scene
     let outside = outside(plugin, "ext_eta")?;
     // An index of 0 is a perfect mirror, which a small one is as well.
     let eta = (eta / outside).max(DVec3::splat(1e-4));
-    Ok(Keys::new().with("eta", Input::Constant(eta).value()).with("k", Input::Constant((k / outside).max(DVec3::ZERO)).value()))
+    Ok(Metal::Constants { eta, k: (k / outside).max(DVec3::ZERO) })
 }
 
 /// The index of refraction of what is outside, a number or a name; of vacuum where nothing is said.
@@ -83,37 +91,44 @@ fn outside(plugin: &Plugin, name: &str) -> Result<f64, SceneError> {
     }
 }
 
-/// The distribution of microfacets: Mitsuba's masks and shadows them separately.
-pub fn with_roughness(converter: &mut Converter, plugin: &Rc<Plugin>, keys: Keys) -> Result<Keys, SceneError> {
-    let clamped = |input: Input| match input {
-        Input::Constant(alpha) => Input::grey(alpha.x.clamp(0.0, 1.0)),
-        texture => texture,
-    };
-    let keys = if plugin.has("alpha_u") || plugin.has("alpha_v") {
-        let (u, v) = (converter.scalar(plugin, "alpha_u", 0.1)?, converter.scalar(plugin, "alpha_v", 0.1)?);
-        if u == v {
-            keys.with("alpha", clamped(u).value())
-        } else {
-            keys.with("alpha_u", clamped(u).value()).with("alpha_v", clamped(v).value())
-        }
-    } else {
-        let alpha = converter.scalar(plugin, "alpha", 0.1)?;
-        keys.with("alpha", clamped(alpha).value())
-    };
-    with_distribution(converter, plugin, keys)
+/// The widths of microfacets: the same in all directions, or along and across the texture coordinate u.
+#[derive(Default)]
+pub struct Widths {
+    pub alpha: Option<Located<Scalar<Fraction>>>,
+    pub alpha_u: Option<Located<Scalar<Fraction>>>,
+    pub alpha_v: Option<Located<Scalar<Fraction>>>,
 }
 
-/// `distribution` and `masking`.
-pub fn with_distribution(converter: &mut Converter, plugin: &Rc<Plugin>, keys: Keys) -> Result<Keys, SceneError> {
+/// `alpha`, or `alpha_u` and `alpha_v`.
+pub fn widths(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Widths, SceneError> {
+    let clamped = |input: Input| {
+        let input = match input {
+            Input::Constant(alpha) => Input::grey(alpha.x.clamp(0.0, 1.0)),
+            texture => texture,
+        };
+        plugin.possible(input.scalar(&plugin.at())).map(|alpha| Some(plugin.at().at(alpha)))
+    };
+    if !plugin.has("alpha_u") && !plugin.has("alpha_v") {
+        let alpha = converter.scalar(plugin, "alpha", 0.1)?;
+        return Ok(Widths { alpha: clamped(alpha)?, ..Widths::default() });
+    }
+    let (u, v) = (converter.scalar(plugin, "alpha_u", 0.1)?, converter.scalar(plugin, "alpha_v", 0.1)?);
+    if u == v {
+        return Ok(Widths { alpha: clamped(u)?, ..Widths::default() });
+    }
+    Ok(Widths { alpha: None, alpha_u: clamped(u)?, alpha_v: clamped(v)? })
+}
+
+/// Whether the distribution of microfacets is Beckmann's; else it is GGX. Mitsuba's masks and shadows them separately.
+pub fn distribution(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<bool, SceneError> {
     plugin.without_effect(&["sample_visible", "sample_all"]);
-    let keys = match plugin.text("distribution")?.unwrap_or("beckmann").to_ascii_lowercase().as_str() {
-        "ggx" => keys,
-        "beckmann" => keys.with("distribution", "beckmann"),
+    match plugin.text("distribution")?.unwrap_or("beckmann").to_ascii_lowercase().as_str() {
+        "ggx" => return Ok(false),
+        "beckmann" => {}
         other => {
             let what = format!("distribution `{other}` of microfacets");
             converter.approximate(plugin, &what, "Beckmann's of the same width is taken");
-            keys.with("distribution", "beckmann")
         }
-    };
-    Ok(keys.with("masking", "separable"))
+    }
+    Ok(true)
 }

@@ -2,34 +2,50 @@
 
 use std::rc::Rc;
 
-use super::conductor::with_roughness;
+use glam::DVec3;
+
+use super::conductor::{Widths, distribution, widths};
 use super::keyed::Keyed;
 use crate::load::error::SceneError;
-use crate::load::import::Keys;
+use crate::load::file::colour::Colour;
+use crate::load::file::material::rough_glass::MicrofacetEntry;
+use crate::load::file::material::roughness::MaskingEntry;
+use crate::load::file::material::{MaterialEntry, glass, rough_glass};
+use crate::load::file::value::{Checked, Fraction};
+use crate::load::import::Input;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::metals;
 use crate::load::mitsuba::plugin::{Plugin, PropertyValue, Spectrum};
 
+/// Glass; a thin one is two surfaces so near to each other that nothing is bent.
 pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     let ior = relative_ior(plugin, "bk7")?;
     let reflectance = converter.reflectance(plugin, "specular_reflectance", 1.0)?;
     let transmittance = converter.reflectance(plugin, "specular_transmittance", 1.0)?;
-    let rough = plugin.name == "roughdielectric";
-    let mut keys = Keys::of_type(if rough { "rough_glass" } else { "glass" }).with("ior", ior);
-    for (key, input) in [("reflectance", reflectance), ("transmittance", transmittance)] {
-        if input.constant() != Some(glam::DVec3::ONE) {
-            keys.set(key, input.value());
-        }
+    let place = plugin.at();
+    let tint = |input: Input| -> Result<Option<Colour<Fraction>>, SceneError> {
+        let tint = Some(input).filter(|input| input.constant() != Some(DVec3::ONE));
+        tint.map(|input| plugin.possible(input.colour(&place))).transpose()
+    };
+    let (ior, reflectance, transmittance) = (Some(plugin.possible(Checked::of(ior))?), tint(reflectance)?, tint(transmittance)?);
+    if plugin.name != "roughdielectric" {
+        let thin = plugin.name == "thindielectric";
+        let keys = glass::Keys { ior, reflectance, transmittance, thin, ..Default::default() };
+        return Ok((MaterialEntry::Glass(keys), true));
     }
-    if rough {
-        keys = with_roughness(converter, plugin, keys)?;
-    }
-    Ok((keys, true))
-}
-
-/// Two surfaces so near to each other that nothing is bent.
-pub fn thin(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
-    dielectric(converter, plugin).map(|(keys, two_sided)| (keys.with("thin", true), two_sided))
+    let Widths { alpha, alpha_u, alpha_v } = widths(converter, plugin)?;
+    let keys = rough_glass::Keys {
+        ior,
+        reflectance,
+        transmittance,
+        alpha,
+        alpha_u,
+        alpha_v,
+        distribution: distribution(converter, plugin)?.then(|| place.at(MicrofacetEntry::Beckmann)),
+        masking: Some(place.at(MaskingEntry::Separable)),
+        ..Default::default()
+    };
+    Ok((MaterialEntry::RoughGlass(keys), true))
 }
 
 /// `int_ior` over `ext_ior`, numbers or names.

@@ -4,14 +4,15 @@ use std::rc::Rc;
 
 use super::keyed::Keyed;
 use crate::load::error::SceneError;
-use crate::load::import::Keys;
+use crate::load::file::material::{MaterialEntry, diffuse as entry};
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
 
 pub fn diffuse(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     let name = if plugin.has("diffuse_reflectance") { "diffuse_reflectance" } else { "reflectance" };
     let reflectance = converter.reflectance(plugin, name, 0.5)?;
-    Ok((Keys::of_type("diffuse").with("reflectance", reflectance.value()), false))
+    let reflectance = plugin.possible(reflectance.colour(&plugin.at()))?;
+    Ok((MaterialEntry::Diffuse(entry::Keys { reflectance, ..Default::default() }), false))
 }
 
 /// Oren and Nayar's model.

@@ -1,30 +1,59 @@
 //! What the modules of BSDFs hand to each other.
 
-use crate::load::import::{Keys, Value};
+use crate::load::file::material::MaterialEntry;
+use crate::load::file::reference::TextureName;
+use crate::load::file::value::{Located, Number};
 
 /// The BSDFs within another one.
 #[derive(Debug, Default)]
 pub struct Parts {
-    pub names: Vec<Value>,
-    /// The map of normals or heights that all of them have, by its keys.
-    pub relief: Keys,
+    /// The names of their materials.
+    pub names: Vec<String>,
+    /// The map of normals or heights that all of them have.
+    pub relief: Relief,
 }
 
 /// The keys by which a material's normals are bent.
-const RELIEF: [&str; 6] = ["normal_map", "normal_scale", "bump_map", "bump_scale", "normal_shadowing", "normal_mirroring"];
-
-/// The keys that bend normals, and the others but the name.
-pub fn without_relief(keys: Keys) -> (Keys, Keys) {
-    let others = keys.0.into_iter().filter(|(key, _)| *key != "name");
-    let (relief, others) = others.partition(|(key, _)| RELIEF.contains(key));
-    (Keys(relief), Keys(others))
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Relief {
+    normal_map: Option<Located<TextureName>>,
+    normal_scale: Option<Located<Number>>,
+    bump_map: Option<Located<TextureName>>,
+    bump_scale: Option<Located<Number>>,
+    normal_shadowing: Option<Located<bool>>,
+    normal_mirroring: Option<Located<bool>>,
 }
 
-/// A blend's keys with those that bend the normals of all of its parts.
-pub fn with_relief(mut keys: Keys, relief: Keys) -> Keys {
-    keys.0.extend(relief.0);
-    keys
+impl Relief {
+    /// Takes the keys from a material, which then lies as the surface does.
+    pub fn take(entry: &mut MaterialEntry) -> Self {
+        let common = entry.common_mut();
+        Self {
+            normal_map: common.normal_map.take(),
+            normal_scale: common.normal_scale.take(),
+            bump_map: common.bump_map.take(),
+            bump_scale: common.bump_scale.take(),
+            normal_shadowing: common.normal_shadowing.take(),
+            normal_mirroring: common.normal_mirroring.take(),
+        }
+    }
+
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
-/// Keys of a material and whether both sides count.
-pub type Keyed = (Keys, bool);
+/// A blend with the keys that bend the normals of all of its parts.
+pub fn with_relief(mut entry: MaterialEntry, relief: Relief) -> MaterialEntry {
+    let common = entry.common_mut();
+    *common.normal_map = relief.normal_map;
+    *common.normal_scale = relief.normal_scale;
+    *common.bump_map = relief.bump_map;
+    *common.bump_scale = relief.bump_scale;
+    *common.normal_shadowing = relief.normal_shadowing;
+    *common.normal_mirroring = relief.normal_mirroring;
+    entry
+}
+
+/// A material without a name, and whether both sides count.
+pub type Keyed = (MaterialEntry, bool);

@@ -11,12 +11,17 @@ mod wrapped;
 
 use std::rc::Rc;
 
-use self::keyed::{Keyed, Parts, without_relief};
+use glam::DVec3;
+
+use self::keyed::{Keyed, Parts, Relief};
 use super::converter::Converter;
-use super::input::Input;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
-use crate::load::import::{Entry, Keys, Value};
+use crate::load::file::colour::Colour;
+use crate::load::file::material::blend_weight::BlendWeightEntry;
+use crate::load::file::material::{MaterialEntry, blend, diffuse as diffuse_entry, pass};
+use crate::load::import::Input;
+use crate::load::place::Place;
 
 /// Most BSDFs within each other.
 const DEEPEST: usize = 32;
@@ -31,49 +36,50 @@ impl Converter<'_> {
     ) -> Result<String, SceneError> {
         let made = match bsdf {
             Some(bsdf) => self.bsdf(bsdf, 0)?,
-            None => self.default_bsdf(light.is_some()),
+            None => shape.possible(self.default_bsdf(light.is_some(), &shape.at()))?,
         };
-        let entry = &self.scene.materials[made];
-        let plain = entry.keys.text("name").unwrap_or_default().to_owned();
+        let plain = self.name_of(made);
         let Some(light) = light else { return Ok(plain) };
-        let mut keys = entry.keys.clone();
         if light.constant().is_some_and(|radiance| radiance.max_element() == 0.0) {
             return Ok(plain);
         }
-        if keys.text("type") == Some("pass") {
+        let place = shape.at();
+        let mut entry = self.scene.file.material[made].clone();
+        if matches!(entry, MaterialEntry::Pass(_)) {
             // It lets all light through, and adds its own.
-            let black = self.extra(shape, "black", Keys::of_type("diffuse").with("reflectance", 0.0));
-            let through = Keys::of_type("constant").with("value", 1.0);
-            keys = Keys::new().with("name", "").with("type", "blend").with("materials", vec![Value::Text(plain.clone()), black]);
-            keys = keys.with("weight", through).with("emission", light.value());
-        } else {
-            keys.set("emission", light.value());
+            let black = self.extra(shape, "black", black());
+            let through = shape.possible(BlendWeightEntry::constant(1.0))?;
+            entry = MaterialEntry::Blend(blend::Keys::of([plain.clone(), black], through, &place));
         }
+        let common = entry.common_mut();
+        *common.name = place.at(String::new());
+        *common.emission = Some(place.at(shape.possible(light.colour(&place))?));
         // The same surface with the same light is one material.
-        let key = format!("{:?}", keys.0.iter().filter(|(key, _)| *key != "name").collect::<Vec<_>>());
+        let key = format!("{entry:?}");
         if let Some(known) = self.lamps.get(&key) {
             return Ok(known.clone());
         }
         let wanted = if shape.id.is_empty() { format!("{plain}, giving light") } else { shape.id.clone() };
         let name = self.scene.free_material_name(&wanted);
-        keys.set("name", name.as_str());
-        self.scene.materials.push(Entry { place: shape.place.clone(), keys });
+        *entry.common_mut().name = place.at(name.clone());
+        self.scene.file.material.push(entry);
         self.lamps.insert(key, name.clone());
         Ok(name)
     }
 
     /// Mitsuba's surface without a BSDF is a grey diffuse one, and black where it gives light.
-    fn default_bsdf(&mut self, is_lamp: bool) -> usize {
-        let known = self.default_materials[usize::from(is_lamp)];
-        let material = known.unwrap_or_else(|| {
-            let (name, reflectance) = if is_lamp { ("(no bsdf, a lamp)", 0.0) } else { ("(no bsdf)", 0.5) };
-            let name = self.scene.free_material_name(name);
-            let keys = Keys::new().with("name", name).with("type", "diffuse").with("reflectance", reflectance);
-            self.scene.materials.push(Entry { keys: keys.with("two_sided", false), ..Entry::default() });
-            self.scene.materials.len() - 1
-        });
-        self.default_materials[usize::from(is_lamp)] = Some(material);
-        material
+    fn default_bsdf(&mut self, is_emitter: bool, place: &Place) -> Result<usize, String> {
+        if let Some(known) = self.default_materials[usize::from(is_emitter)] {
+            return Ok(known);
+        }
+        let (name, reflectance) = if is_emitter { ("(no bsdf, a lamp)", 0.0) } else { ("(no bsdf)", 0.5) };
+        let name = place.at(self.scene.free_material_name(name));
+        let (reflectance, two_sided) = (Colour::constant(DVec3::splat(reflectance))?, Some(place.at(false)));
+        let keys = diffuse_entry::Keys { name, reflectance, two_sided, ..Default::default() };
+        self.scene.file.material.push(MaterialEntry::Diffuse(keys));
+        let made = self.scene.file.material.len() - 1;
+        self.default_materials[usize::from(is_emitter)] = Some(made);
+        Ok(made)
     }
 
     /// The material of a BSDF, made once.
@@ -82,19 +88,19 @@ impl Converter<'_> {
         if let Some(made) = self.materials.get(&key) {
             return Ok(*made);
         }
-        let (keys, two_sided) = self.bsdf_keys(plugin, depth)?;
-        let keys = if two_sided { keys } else { self.sided(keys) };
+        let (mut entry, two_sided) = self.bsdf_entry(plugin, depth)?;
+        if !two_sided {
+            self.make_sided(&mut entry, plugin);
+        }
         let wanted = if plugin.id.is_empty() { plugin.name.clone() } else { plugin.id.clone() };
-        let name = self.scene.free_material_name(&wanted);
-        let mut named = Keys::new().with("name", name);
-        named.0.extend(keys.0.into_iter().filter(|(key, _)| *key != "name"));
-        self.scene.materials.push(Entry { place: plugin.place.clone(), keys: named });
-        let made = self.scene.materials.len() - 1;
+        *entry.common_mut().name = plugin.at().at(self.scene.free_material_name(&wanted));
+        self.scene.file.material.push(entry);
+        let made = self.scene.file.material.len() - 1;
         self.materials.insert(key, made);
         Ok(made)
     }
 
-    fn bsdf_keys(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
+    fn bsdf_entry(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
         if depth > DEEPEST {
             return Err(plugin.error(format!("BSDFs lie more than {DEEPEST} deep within each other")));
         }
@@ -105,8 +111,7 @@ impl Converter<'_> {
             "roughdiffuse" => diffuse::rough(self, plugin),
             "difftrans" => diffuse::transmitting(self, plugin),
             "conductor" | "roughconductor" | "mirror" => conductor::conductor(self, plugin),
-            "dielectric" | "roughdielectric" => dielectric::dielectric(self, plugin),
-            "thindielectric" => dielectric::thin(self, plugin),
+            "dielectric" | "roughdielectric" | "thindielectric" => dielectric::dielectric(self, plugin),
             "plastic" | "roughplastic" => plastic::plastic(self, plugin),
             "principled" | "principledthin" | "disney" => principled::principled(self, plugin),
             "phong" | "ward" => old::phong(self, plugin),
@@ -117,7 +122,7 @@ impl Converter<'_> {
             "normalmap" => wrapped::normal_map(self, plugin, depth),
             "blendbsdf" => wrapped::blend(self, plugin, depth),
             "mixturebsdf" => wrapped::mixture(self, plugin, depth),
-            "null" => Ok((Keys::of_type("pass"), true)),
+            "null" => Ok((nothing(), true)),
             other => {
                 for property in &plugin.properties {
                     property.used.set(true);
@@ -125,22 +130,31 @@ impl Converter<'_> {
                 plugin.children.iter().for_each(|child| child.used.set(true));
                 let what = format!("bsdf `{other}`");
                 self.drop(plugin, &what, "a diffuse grey of 0.5 stands for it");
-                Ok((Keys::of_type("diffuse").with("reflectance", 0.5), true))
+                Ok((plugin.possible(grey(0.5))?, true))
             }
         }
     }
 
-    /// The keys of a BSDF within another one.
+    /// A BSDF within another one.
     fn within(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
         let within = plugin.first_of("bsdf").cloned();
         let within = within.ok_or_else(|| plugin.error(format!("{} needs a bsdf within", plugin.title())))?;
-        self.bsdf_keys(&within, depth + 1)
+        self.bsdf_entry(&within, depth + 1)
     }
 
-    /// One that reflects on its front alone. A blend leaves that to its parts.
-    fn sided(&self, keys: Keys) -> Keys {
-        let is_whole = matches!(keys.text("type"), Some("blend" | "pass" | "emissive" | "glass" | "rough_glass"));
-        if self.both_sides || is_whole { keys } else { keys.with("two_sided", false) }
+    /// Lets a material reflect on its front alone. A blend leaves that to its parts.
+    fn make_sided(&self, entry: &mut MaterialEntry, plugin: &Plugin) {
+        let is_whole = matches!(
+            entry,
+            MaterialEntry::Blend(_)
+                | MaterialEntry::Pass(_)
+                | MaterialEntry::Emissive(_)
+                | MaterialEntry::Glass(_)
+                | MaterialEntry::RoughGlass(_)
+        );
+        if !self.both_sides && !is_whole {
+            *entry.common_mut().two_sided = Some(plugin.at().at(false));
+        }
     }
 
     /// All BSDFs within another one, whose normals are its own.
@@ -150,11 +164,12 @@ impl Converter<'_> {
         let mut maps = Vec::new();
         for part in &within {
             let made = self.bsdf(part, depth + 1)?;
-            let (relief, others) = without_relief(self.scene.materials[made].keys.clone());
+            let mut entry = self.scene.file.material[made].clone();
+            let relief = Relief::take(&mut entry);
             let name = self.name_of(made);
-            parts.names.push(match relief.is_empty() {
-                true => Value::Text(name),
-                false => self.extra(part, &format!("{name}, as it lies"), others),
+            parts.names.push(match relief.is_none() {
+                true => name,
+                false => self.extra(part, &format!("{name}, as it lies"), entry),
             });
             maps.push(relief);
         }
@@ -162,23 +177,36 @@ impl Converter<'_> {
             [first, rest @ ..] if rest.iter().all(|map| map == first) => parts.relief = first.clone(),
             _ => {}
         }
-        if parts.relief.is_empty() && maps.iter().any(|map| !map.is_empty()) {
+        if parts.relief.is_none() && maps.iter().any(|map| !map.is_none()) {
             self.drop(plugin, "map of normals or heights of one part of a blend", "the part lies as the surface does");
         }
         Ok(parts)
     }
 
     fn name_of(&self, made: usize) -> String {
-        self.scene.materials[made].keys.text("name").unwrap_or_default().to_owned()
+        self.scene.file.material[made].name().to_owned()
     }
 
-    /// A material beside the plugin's own.
-    fn extra(&mut self, plugin: &Plugin, wanted: &str, keys: Keys) -> Value {
-        let keys = self.sided(keys);
+    /// A material beside the plugin's own; its name.
+    fn extra(&mut self, plugin: &Plugin, wanted: &str, mut entry: MaterialEntry) -> String {
+        self.make_sided(&mut entry, plugin);
         let name = self.scene.free_material_name(wanted);
-        let mut named = Keys::new().with("name", name.as_str());
-        named.0.extend(keys.0);
-        self.scene.materials.push(Entry { place: plugin.place.clone(), keys: named });
-        Value::Text(name)
+        *entry.common_mut().name = plugin.at().at(name.clone());
+        self.scene.file.material.push(entry);
+        name
     }
+}
+
+fn nothing() -> MaterialEntry {
+    MaterialEntry::Pass(pass::Keys::default())
+}
+
+/// Reflects nothing: the reflectance of a diffuse surface is 0 where none is set.
+fn black() -> MaterialEntry {
+    MaterialEntry::Diffuse(diffuse_entry::Keys::default())
+}
+
+fn grey(reflectance: f64) -> Result<MaterialEntry, String> {
+    let reflectance = Colour::constant(DVec3::splat(reflectance))?;
+    Ok(MaterialEntry::Diffuse(diffuse_entry::Keys { reflectance, ..Default::default() }))
 }

@@ -5,9 +5,11 @@ use std::rc::Rc;
 use super::dielectric::relative_ior;
 use super::keyed::{Keyed, with_relief};
 use crate::load::error::SceneError;
-use crate::load::import::Keys;
+use crate::load::file::material::blend_weight::{BlendWeightEntry, FresnelWeight};
+use crate::load::file::material::{MaterialEntry, blend, mirror, phong as phong_entry};
+use crate::load::file::value::Checked;
+use crate::load::import::Input;
 use crate::load::mitsuba::converter::Converter;
-use crate::load::mitsuba::input::Input;
 use crate::load::mitsuba::plugin::Plugin;
 
 /// Modified Phong, which both programs have; Ward's model is said by it.
@@ -23,8 +25,14 @@ pub fn phong(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, Sc
     } else {
         converter.scalar(plugin, "exponent", 30.0)?
     };
-    let keys = Keys::of_type("phong").with("diffuse", diffuse.value()).with("specular", specular.value());
-    Ok((keys.with("exponent", exponent.value()), false))
+    let place = plugin.at();
+    let keys = phong_entry::Keys {
+        diffuse: plugin.possible(diffuse.colour(&place))?,
+        specular: place.at(plugin.possible(specular.colour(&place))?),
+        exponent: plugin.possible(exponent.scalar(&place))?,
+        ..Default::default()
+    };
+    Ok((MaterialEntry::Phong(keys), false))
 }
 
 /// A dielectric layer over another BSDF.
@@ -36,8 +44,12 @@ pub fn coating(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
     let Some(base) = parts.names.first().cloned() else { return Err(plugin.error("a coating needs a bsdf within")) };
     let what = plugin.title();
     converter.approximate(plugin, &what, "a mirror over what is below, blended by Fresnel's equations");
-    let coat = converter.extra(plugin, "coat", Keys::of_type("mirror").with("reflectance", specular.value()));
-    let weight = Keys::of_type("fresnel").with("ior", ior).with("exact", true);
-    let keys = Keys::of_type("blend").with("materials", vec![base, coat]).with("weight", weight);
-    Ok((with_relief(keys, parts.relief), false))
+    let place = plugin.at();
+    let reflectance = Some(plugin.possible(specular.colour(&place))?);
+    let mirror = MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() });
+    let coat = converter.extra(plugin, "coat", mirror);
+    let ior = Some(plugin.possible(Checked::of(ior))?);
+    let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
+    let blend = MaterialEntry::Blend(blend::Keys::of([base, coat], weight, &place));
+    Ok((with_relief(blend, parts.relief), false))
 }

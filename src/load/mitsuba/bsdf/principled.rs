@@ -4,10 +4,15 @@ use std::rc::Rc;
 
 use super::keyed::Keyed;
 use crate::load::error::SceneError;
-use crate::load::import::Keys;
+use crate::load::file::colour::ChannelName;
+use crate::load::file::material::blend_weight::BlendWeightEntry;
+use crate::load::file::material::{MaterialEntry, principled as entry};
+use crate::load::file::reference::TextureName;
+use crate::load::file::value::Checked;
+use crate::load::import::Input;
 use crate::load::mitsuba::converter::Converter;
-use crate::load::mitsuba::input::Input;
 use crate::load::mitsuba::plugin::Plugin;
+use crate::load::place::Place;
 
 const PARAMETERS: [&str; 9] = [
     "spec_tint",
@@ -36,32 +41,34 @@ pub fn principled(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
             (1.0 + root) / (1.0 - root)
         }
     };
-    let mut keys = Keys::of_type("principled").with("base_color", colour.value());
-    for (ours, theirs, default) in [("metallic", "metallic", 0.0), ("roughness", "roughness", 0.5)] {
-        let input = converter.scalar(plugin, theirs, default)?;
-        keys.set(ours, clamped(&input).value());
-    }
-    keys.set("ior", ior.clamp(1.0, 10.0));
+    let place = plugin.at();
+    let share = |input: &Input| plugin.possible(clamped(input).scalar(&place));
+    let (metallic, roughness) = (converter.scalar(plugin, "metallic", 0.0)?, converter.scalar(plugin, "roughness", 0.5)?);
+    let mut keys = entry::Keys {
+        base_color: Some(plugin.possible(colour.colour(&place))?),
+        metallic: Some(share(&metallic)?),
+        roughness: Some(share(&roughness)?),
+        ior: Some(plugin.possible(Checked::of(ior.clamp(1.0, 10.0)))?),
+        ..Default::default()
+    };
     let see_through = !is(&transmission, 0.0);
     if see_through {
-        keys.set("transmission", clamped(&transmission).value());
-        if plugin.name == "principledthin" {
-            keys.set("thin", true);
-        }
+        keys.transmission = Some(share(&transmission)?);
+        keys.thin = (plugin.name == "principledthin").then(|| place.at(true));
     }
     let coat = converter.scalar(plugin, "clearcoat", 0.0)?;
     if !is(&coat, 0.0) {
-        keys.set("clearcoat", clamped(&coat).value());
+        keys.clearcoat = Some(share(&coat)?);
         let gloss = converter.plain_number(plugin, "clearcoat_gloss", 0.0)?.clamp(0.0, 1.0);
         // The coat's width goes from 0.1 to 0.001 there; a roughness is its root.
-        keys.set("clearcoat_roughness", (0.1 + (0.001 - 0.1) * gloss).sqrt());
+        keys.clearcoat_roughness = Some(place.at(share(&Input::grey((0.1 + (0.001 - 0.1) * gloss).sqrt()))?));
     }
     let anisotropic = converter.plain_number(plugin, "anisotropic", 0.0)?;
     if anisotropic > 0.0 {
-        keys.set("anisotropy", anisotropic.clamp(0.0, 1.0));
+        keys.anisotropy = Some(Box::new(share(&Input::grey(anisotropic))?));
     }
     // A thin one scatters on both sides.
-    Ok((keys, see_through || plugin.name == "principledthin"))
+    Ok((MaterialEntry::Principled(keys), see_through || plugin.name == "principledthin"))
 }
 
 fn is(input: &Input, value: f64) -> bool {
@@ -75,19 +82,14 @@ fn clamped(input: &Input) -> Input {
     }
 }
 
-/// The first by a share that may come from a texture.
-pub fn blended(first: crate::load::import::Value, second: crate::load::import::Value, share: &Input) -> Keys {
-    Keys::of_type("blend").with("materials", vec![first, second]).with("weight", weight(share))
-}
-
-/// A blend's weight.
-pub fn weight(share: &Input) -> Keys {
+/// A blend's weight, which may come from a texture.
+pub fn weight(share: &Input, place: &Place) -> Result<BlendWeightEntry, String> {
     match share {
-        Input::Constant(share) => Keys::of_type("constant").with("value", share.x.clamp(0.0, 1.0)),
+        Input::Constant(share) => BlendWeightEntry::constant(share.x.clamp(0.0, 1.0)),
         // The first channel: masks are grey.
         Input::Texture(name, factor) => {
-            let keys = Keys::of_type("texture").with("texture", name.as_str()).with("channel", "r");
-            keys.with_some("factor", (factor.x != 1.0).then_some(factor.x.clamp(0.0, 1.0)))
+            let factor = if factor.x == 1.0 { 1.0 } else { factor.x.clamp(0.0, 1.0) };
+            BlendWeightEntry::channel(place.at(TextureName(name.clone())), ChannelName::R, factor)
         }
     }
 }

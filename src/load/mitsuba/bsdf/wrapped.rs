@@ -5,12 +5,17 @@ use std::rc::Rc;
 use glam::DVec3;
 
 use super::keyed::{Keyed, Parts, with_relief};
-use super::principled::{blended, weight};
+use super::principled::weight;
+use super::{black, nothing};
 use crate::load::error::SceneError;
-use crate::load::import::{Keys, Value};
+use crate::load::file::material::blend_weight::{BlendWeightEntry, NoKeys};
+use crate::load::file::material::{MaterialEntry, blend as blend_entry};
+use crate::load::file::reference::TextureName;
+use crate::load::file::value::Number;
+use crate::load::import::Input;
 use crate::load::mitsuba::colour::Role;
 use crate::load::mitsuba::converter::Converter;
-use crate::load::mitsuba::input::{Input, Texels};
+use crate::load::mitsuba::input::Texels;
 use crate::load::mitsuba::plugin::Plugin;
 
 pub fn two_sided(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -20,16 +25,19 @@ pub fn two_sided(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -
         return Err(plugin.error(format!("a surface has two sides, and this one {} bsdfs for them", within.len())));
     }
     let outside = std::mem::replace(&mut converter.both_sides, true);
-    let made = if differ { sides(converter, plugin, depth) } else { converter.within(plugin, depth).map(|(keys, _)| keys) };
+    let made = if differ { sides(converter, plugin, depth) } else { converter.within(plugin, depth).map(|(entry, _)| entry) };
     converter.both_sides = outside;
-    made.map(|keys| (keys, true))
+    made.map(|entry| (entry, true))
 }
 
 /// The first BSDF on the front, the second one on the back.
-fn sides(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keys, SceneError> {
+fn sides(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<MaterialEntry, SceneError> {
     let Parts { names, relief } = converter.parts(plugin, depth)?;
-    let keys = Keys::of_type("blend").with("materials", names).with("weight", Keys::of_type("front"));
-    Ok(with_relief(keys, relief))
+    let count = names.len();
+    let sides = <[String; 2]>::try_from(names);
+    let sides = sides.map_err(|_| plugin.error(format!("a surface has two sides, and this one {count} bsdfs for them")))?;
+    let front = BlendWeightEntry::Front(NoKeys {});
+    Ok(with_relief(MaterialEntry::Blend(blend_entry::Keys::of(sides, front, &plugin.at())), relief))
 }
 
 pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -39,65 +47,78 @@ pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Res
     }
     if opacity.constant() == Some(DVec3::ZERO) {
         converter.within(plugin, depth)?;
-        return Ok((Keys::of_type("pass"), true));
+        return Ok((nothing(), true));
     }
     let parts = converter.parts(plugin, depth)?;
     let Some(part) = parts.names.into_iter().next() else { return Err(plugin.error("a mask needs a bsdf within")) };
-    let behind = converter.extra(plugin, "what is behind", Keys::of_type("pass"));
-    Ok((with_relief(blended(part, behind, &opacity), parts.relief), false))
+    let behind = converter.extra(plugin, "what is behind", nothing());
+    let blend = blended([part, behind], &opacity, plugin)?;
+    Ok((with_relief(blend, parts.relief), false))
 }
 
 pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let scale = plugin.number_or("scale", 1.0)?;
     let map = plugin.first_of("texture").cloned().ok_or_else(|| plugin.error("a bump map needs a texture within"))?;
-    let (keys, two_sided) = converter.within(plugin, depth)?;
-    if keys.get("normal_map").is_some() || keys.get("bump_map").is_some() {
+    let (mut entry, two_sided) = converter.within(plugin, depth)?;
+    let common = entry.common();
+    if common.normal_map.is_some() || common.bump_map.is_some() {
         converter.drop(plugin, "bump map around another map of normals", "the inner map counts");
-        return Ok((keys, two_sided));
+        return Ok((entry, two_sided));
     }
     if map.name == "checkerboard" {
         map.visited.set(true);
         converter.drop(&map, "texture `checkerboard` as a bump map", "it has steps and no slopes, and bends no normals");
-        return Ok((keys, two_sided));
+        return Ok((entry, two_sided));
     }
-    Ok(match converter.texture(&map, Role::Surface, Texels::Heights)? {
-        Input::Texture(name, factor) => {
-            if keys.get("clearcoat").is_some() {
-                converter.approximate(plugin, "bump map of a coat", "it bends what is below the coat alone");
-            }
-            let keys = keys.with("bump_map", name).with("bump_scale", scale * factor.x);
-            plugin.without_effect(&["flip_invalid_normals"]);
-            (shadowed(plugin, keys)?, two_sided)
+    if let Input::Texture(name, factor) = converter.texture(&map, Role::Surface, Texels::Heights)? {
+        if is_coated(&entry) {
+            converter.approximate(plugin, "bump map of a coat", "it bends what is below the coat alone");
         }
-        Input::Constant(_) => (keys, two_sided),
-    })
+        let place = plugin.at();
+        let common = entry.common_mut();
+        *common.bump_map = Some(place.at(TextureName(name)));
+        *common.bump_scale = Some(place.at(plugin.possible(Number::of(scale * factor.x))?));
+        plugin.without_effect(&["flip_invalid_normals"]);
+        shade(plugin, &mut entry)?;
+    }
+    Ok((entry, two_sided))
 }
 
-/// As a map there shadows the normals that it bends, unless it says otherwise.
-fn shadowed(plugin: &Plugin, keys: Keys) -> Result<Keys, SceneError> {
+/// Lets a map shadow the normals that it bends, as it does there, unless it says otherwise. Whether it does.
+fn shade(plugin: &Plugin, entry: &mut MaterialEntry) -> Result<bool, SceneError> {
     let is_shadowed = plugin.flag("use_shadowing_function", true)?;
-    Ok(if is_shadowed { keys.with("normal_shadowing", true) } else { keys })
+    if is_shadowed {
+        *entry.common_mut().normal_shadowing = Some(plugin.at().at(true));
+    }
+    Ok(is_shadowed || entry.common().normal_shadowing.is_some())
 }
 
-/// A map there bends a coat too.
-fn with_coat(keys: Keys, map: &str) -> Keys {
-    let is_coated = keys.get("clearcoat").is_some();
-    keys.with_some("coat_normal_map", is_coated.then_some(map))
+fn is_coated(entry: &MaterialEntry) -> bool {
+    matches!(entry, MaterialEntry::Principled(keys) if keys.clearcoat.is_some())
 }
 
 pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let map = plugin.child("normalmap").or_else(|| plugin.first_of("texture")).cloned();
     let map = map.ok_or_else(|| plugin.error("a normal map needs a texture within"))?;
-    let (keys, two_sided) = converter.within(plugin, depth)?;
-    Ok(match converter.texture(&map, Role::Surface, Texels::Normals)? {
-        Input::Texture(name, _) => {
-            let keys = with_coat(keys, &name).with("normal_map", name);
-            let keys = shadowed(plugin, keys)?;
-            let is_mirrored = plugin.flag("flip_invalid_normals", true)? && keys.get("normal_shadowing").is_some();
-            (keys.with_some("normal_mirroring", is_mirrored.then_some(true)), two_sided)
+    let (mut entry, two_sided) = converter.within(plugin, depth)?;
+    if let Input::Texture(name, _) = converter.texture(&map, Role::Surface, Texels::Normals)? {
+        let place = plugin.at();
+        // A map there bends a coat too.
+        if let (true, MaterialEntry::Principled(keys)) = (is_coated(&entry), &mut entry) {
+            keys.coat_normal_map = Some(place.at(TextureName(name.clone())));
         }
-        Input::Constant(_) => (keys, two_sided),
-    })
+        *entry.common_mut().normal_map = Some(place.at(TextureName(name)));
+        let is_shadowed = shade(plugin, &mut entry)?;
+        if plugin.flag("flip_invalid_normals", true)? && is_shadowed {
+            *entry.common_mut().normal_mirroring = Some(place.at(true));
+        }
+    }
+    Ok((entry, two_sided))
+}
+
+fn blended(materials: [String; 2], share: &Input, plugin: &Plugin) -> Result<MaterialEntry, SceneError> {
+    let weight = plugin.possible(weight(share, &plugin.at()))?;
+    Ok(MaterialEntry::Blend(blend_entry::Keys::of(materials, weight, &plugin.at())))
 }
 
 /// Mitsuba's weight is the second one's share.
@@ -105,7 +126,10 @@ pub fn blend(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Re
     let share = converter.scalar(plugin, "weight", 0.5)?;
     let parts = converter.parts(plugin, depth)?;
     match &parts.names[..] {
-        [first, second] => Ok((with_relief(blended(second.clone(), first.clone(), &share), parts.relief), false)),
+        [first, second] => {
+            let blend = blended([second.clone(), first.clone()], &share, plugin)?;
+            Ok((with_relief(blend, parts.relief), false))
+        }
         others => Err(plugin.error(format!("a blend has two bsdfs within, and this one {}", others.len()))),
     }
 }
@@ -119,25 +143,24 @@ pub fn mixture(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
     if weights.len() != names.len() || names.is_empty() || weights.iter().any(|weight| *weight < 0.0) || sum > 1.0 + 1e-6 {
         return Err(plugin.error("a mixture has a weight from 0 to 1 for each bsdf within, at most 1 in all"));
     }
-    let mut parts: Vec<(Value, f64)> = names.into_iter().zip(weights).collect();
+    let mut parts: Vec<(String, f64)> = names.into_iter().zip(weights).collect();
     if sum < 1.0 - 1e-6 {
-        parts.push((converter.extra(plugin, "black", Keys::of_type("diffuse").with("reflectance", 0.0)), 1.0 - sum));
+        parts.push((converter.extra(plugin, "black", black()), 1.0 - sum));
     }
     // From the last one on: each takes its share of what is left.
     let Some((mut rest, mut left)) = parts.pop() else { return Err(plugin.error("a mixture needs bsdfs within")) };
-    let mut keys = None;
+    let mut blend = None;
     while let Some((name, share)) = parts.pop() {
         left += share;
         let of_left = if left > 0.0 { share / left } else { 1.0 };
-        let made =
-            Keys::of_type("blend").with("materials", vec![name, rest.clone()]).with("weight", weight(&Input::grey(of_left)));
+        let made = blended([name, rest.clone()], &Input::grey(of_left), plugin)?;
         if !parts.is_empty() {
             rest = converter.extra(plugin, "mixture", made.clone());
         }
-        keys = Some(made);
+        blend = Some(made);
     }
-    match keys {
-        Some(keys) => Ok((with_relief(keys, relief), false)),
+    match blend {
+        Some(blend) => Ok((with_relief(blend, relief), false)),
         None => converter.within(plugin, depth),
     }
 }

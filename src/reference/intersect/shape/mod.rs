@@ -1,7 +1,14 @@
 //! Shapes as rays meet them: a file for each.
 
+mod cuboid;
+mod cylinder;
+mod disk;
+mod mesh;
 mod placement;
+mod plane;
 mod primitive;
+mod rectangle;
+mod sphere;
 mod triangle;
 
 use crate::scene::Geometry;
@@ -10,11 +17,9 @@ pub use placement::Placement;
 pub use primitive::Primitive;
 pub use triangle::Triangle;
 
-/// A module for each row of the table of shapes, and what chooses among them.
+/// What chooses among the rows of the table of shapes, which are a module each.
 macro_rules! modules {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
-        $(mod $module;)*
-
         /// The primitives of a shape in the world, each with the number of the face it is: of a mesh, or of a box (−x +x −y +y −z +z).
         pub fn primitives(placement: &Placement<'_>) -> Vec<(usize, Primitive)> {
             match &placement.shape.geometry {

@@ -7,14 +7,6 @@ use glam::DAffine3;
 /// Numbers of a place: a matrix of three rows and four columns, row by row.
 pub const PLACE_NUMBERS: usize = 12;
 
-/// Triangles that copies beyond the first have together where storing a mesh once is worth its while. A ray pays for the way into an instance.
-const FEWEST_SAVED_TRIANGLES: u64 = 1000;
-
-/// Whether a mesh that stands in so many places had better be stored once.
-pub fn pays_as_instances(copies: usize, triangles: u64) -> bool {
-    copies > 1 && (copies as u64 - 1).saturating_mul(triangles) >= FEWEST_SAVED_TRIANGLES
-}
-
 /// How the numbers of a file are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlaceFormat {
