@@ -54,7 +54,7 @@ settings! {
             header: "gpt:maxDepth",
             compared: false,
         }
-        /// Source of random numbers.
+        /// The source of random numbers.
         sampler: SamplerKind = SamplerKind::Sobol => { // the one that measures best: docs/strategies.md
             values: Names(SamplerKind::NAMES),
             flag: "--sampler",
