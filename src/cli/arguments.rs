@@ -121,7 +121,7 @@ pub struct RenderArguments {
     pub estimate: EstimateArguments,
     #[command(flatten, next_help_heading = "Frames")]
     pub frames: FrameArguments,
-    #[command(flatten, next_help_heading = "When it ends, and where samples go")]
+    #[command(flatten, next_help_heading = "Stopping, and where samples go")]
     pub goal: GoalArguments,
     /// auto (discrete, integrated, then software GPU; the CPU integrator if there is none), gpu, cpu, or part of an adapter's name
     #[arg(long, default_value = "auto", value_parser = parse_device, help_heading = DEVICE)]
@@ -132,16 +132,16 @@ pub struct RenderArguments {
     /// Take a device for lost (exit code 5) that does not finish a submission, of a second at most, in this time [default: 60; 300 on software devices]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, help_heading = DEVICE)]
     pub device_timeout: Option<Duration>,
-    #[command(flatten, next_help_heading = "When it ends, and where samples go")]
+    #[command(flatten, next_help_heading = "Stopping, and where samples go")]
     pub checkpoint: CheckpointArguments,
     #[command(flatten, next_help_heading = DEVICE)]
     pub traversal: TraversalArguments,
-    #[command(flatten, next_help_heading = "While it goes on")]
+    #[command(flatten, next_help_heading = "While rendering")]
     pub live: ViewArguments,
     /// Write what the render did and how long it took as JSON; - is standard output
     #[arg(long, value_name = "FILE.json", help_heading = REPORT)]
     pub stats: Option<PathBuf>,
-    /// Tell of progress on standard output, once a second: words, JSON lines, or as Open Job Description has it
+    /// Print progress to standard output, once a second: words, JSON lines, or the form of Open Job Description
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub progress: Option<ProgressFormat>,
     /// No progress on stderr
@@ -156,7 +156,7 @@ pub struct RenderArguments {
 const SCENE: &str = "The scene";
 const PICTURE_FILES: &str = "Picture files";
 const DEVICE: &str = "Device";
-const REPORT: &str = "What is said";
+const REPORT: &str = "Messages";
 
 #[derive(Debug, Args)]
 pub struct ScenesArguments {

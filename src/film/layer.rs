@@ -23,7 +23,7 @@ choices! {
         Direct = "direct",
         /// Light of more edges: Indirect.R, .G, .B.
         Indirect = "indirect",
-        /// The light that lights and surroundings send to the camera: Emission.R, .G, .B. Direct, indirect
+        /// Light that emitters and surroundings send to the camera: Emission.R, .G, .B. Direct, indirect
         /// and emission add up to the picture.
         Emission = "emission",
         /// Number of the shape and of the material at the pixel's centre, from 1; 0 where nothing is met: ObjectId, MaterialId.

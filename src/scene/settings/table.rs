@@ -54,7 +54,7 @@ settings! {
             header: "gpt:maxDepth",
             compared: false,
         }
-        /// Source of random numbers.
+        /// The source of random numbers.
         sampler: SamplerKind = SamplerKind::Sobol => { // the one that measures best: docs/strategies.md
             values: Names(SamplerKind::NAMES),
             flag: "--sampler",
@@ -134,7 +134,7 @@ settings! {
             header: "gpt:guiding",
             compared: true,
         }
-        /// Paths of the last of five rounds in which a guide is learned, each of which has twice as many as the one before. Fewer take less time, more know more.
+        /// Paths of the last of five rounds in which a guide is learned, each of which has twice as many as the one before. Fewer are quicker; more give a better guide.
         guiding_paths: NumberOrAuto = NumberOrAuto::Auto => {
             values: WholeOr(FEWEST_GUIDING_PATHS, MOST_GUIDING_PATHS, auto("Eight for each pixel, from 16,384 to 524,288.")),
             flag: "--guiding-paths",
@@ -166,7 +166,7 @@ settings! {
             header: "gpt:rouletteDepth",
             compared: true,
         }
-        /// Brightest channel that a sample may have: brighter ones are darkened to it, which takes out fireflies and with them light that is due; 0 = off.
+        /// Brightest channel that a sample may have; 0 = off. Brighter samples are darkened to it, which removes fireflies, but also real light.
         clamp: f64 = 0.0 => {
             values: Real(0.0, LARGEST_CLAMP),
             flag: "--clamp",
