@@ -343,7 +343,7 @@ mod tests {
         image::RgbImage::new(3000, 3000).save(&paths[2]).unwrap();
         // Room for both small pictures, of four bytes and of half-precision numbers, but not while a third is decoded.
         let pictures = Pictures::within(Files::default(), 10_000 * (4 + MOST_KEPT + WHILE_DECODED));
-        let read = |path: &Path| pictures.read(path, None).map(|picture| picture.image.texels.len());
+        let read = |path: &Path| pictures.read_file(path, None).map(|picture| picture.image.texels.len());
         let refusal = read(&paths[2]).unwrap_err();
         assert!(refusal.contains("3000 x 3000") && refusal.contains("275 MiB"), "{refusal}");
         // What was refused takes no room.

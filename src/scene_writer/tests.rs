@@ -5,7 +5,8 @@ use std::path::Path;
 use tempfile::tempdir;
 
 use super::*;
-use crate::load::file::{light_examples, load_toml_str, material_examples, shape_examples};
+use crate::load::file::{light_examples, material_examples, shape_examples};
+use crate::load::load_toml_str;
 use crate::load::{builtin_names, load};
 use crate::scene::{Geometry, Mesh, digest};
 

@@ -1,14 +1,13 @@
-use std::sync::Arc;
-
 use super::*;
 use crate::load::spelling::lines::trimmed;
 use crate::scene::Mesh;
 
-/// Reads a model from memory.
+/// Reads a model of these bytes, as errors call `a.obj`.
 fn read_bytes(bytes: &[u8]) -> Result<ModelFile, String> {
-    let mut files = Files::default();
-    files.hold_bytes("a.obj".into(), Arc::from(bytes));
-    load(&files, Path::new("a.obj"), true).map_err(|error| error.to_string())
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("a.obj"), bytes).expect("it is written");
+    let file = load(&Files::default(), &folder.path().join("a.obj"), true);
+    file.map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
 }
 
 /// All faces as one mesh, and what was mended.

@@ -37,7 +37,8 @@ use super::rough_thin_glass::RoughThinGlass;
 use super::scatter::{Evaluation, Scatter};
 use super::thin_glass::ThinGlass;
 use super::*;
-use crate::load::file::{load_toml_str, material_examples};
+use crate::load::file::material_examples;
+use crate::load::load_toml_str;
 use crate::reference::intersect::Surface;
 use crate::scene::{
     ColorInput, HemisphereSampling, LobeKind, Masking, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Scene,
