@@ -337,7 +337,7 @@ fn follow(
     Some(followed)
 }
 
-/// The paired test of TRUTHS: every tile and the whole picture.
+/// The paired test of every tile and of the whole picture.
 pub fn test(first: &[[f32; 3]], second: &[[f32; 3]], width: u32) -> Result<ImageComparison, RenderError> {
     let settings = TileSettings { tile: 16, ..TileSettings::default() };
     compare_paired(Picture { width, pixels: first }, Picture { width, pixels: second }, &settings)
