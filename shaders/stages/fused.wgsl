@@ -1,4 +1,5 @@
-// All stages in one kernel, for scenes so simple that storing paths between stages costs more than tracing them.
+// All stages in one kernel: on software devices, and on hardware for scenes of few features, storing paths
+// between stages costs more than tracing them.
 #import core/layout.wgsl
 #import core/parameters.wgsl
 #import core/spectrum.wgsl

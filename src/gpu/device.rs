@@ -66,8 +66,8 @@ impl OpeningDevice {
         }
     }
 
-    /// One that needs no waiting.
-    pub fn is_open(device: &Device) -> Self {
+    /// A device that needs no waiting.
+    pub fn already_open(device: &Device) -> Self {
         Self(Opening::Open(Box::new(device.clone())))
     }
 

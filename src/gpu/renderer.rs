@@ -64,7 +64,7 @@ impl GpuRenderer {
     /// # Errors
     /// [`RenderError::DoesNotFit`] where the scene is too large for the device.
     pub fn on(device: &Device, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
-        Self::from_opening_device(OpeningDevice::is_open(device), scene, options)
+        Self::from_opening_device(OpeningDevice::already_open(device), scene, options)
     }
 
     /// [`GpuRenderer::from_opening_device`] with the trees of an earlier frame.
@@ -75,7 +75,7 @@ impl GpuRenderer {
         mut trees: KeptTrees,
     ) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let opening = if options.waits_for_device() { OpeningDevice::is_open(&opening.wait()?) } else { opening };
+        let opening = if options.waits_for_device() { OpeningDevice::already_open(&opening.wait()?) } else { opening };
         let fitting = Fitting::new(scene, opening.limits(), options, &mut trees);
         // Without a device, that is the error, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
@@ -247,7 +247,7 @@ impl Renderer for GpuRenderer {
         let (options, trees) = (std::mem::take(&mut self.options), std::mem::take(&mut self.trees));
         // Its memory is free before the next scene's is taken.
         drop(self);
-        Ok(Box::new(Self::with_trees(OpeningDevice::is_open(&device), scene, &options, trees)?))
+        Ok(Box::new(Self::with_trees(OpeningDevice::already_open(&device), scene, &options, trees)?))
     }
 
     fn holds_whole_film(&self) -> bool {

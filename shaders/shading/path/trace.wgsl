@@ -4,8 +4,6 @@
 #import core/spectrum.wgsl
 
 #if TRACE
-// How many vertices are written down, and vec4s of each; src/gpu/trace.rs has the same.
-
 // The vertex in the making:
 //   0 (position; primitive or NONE), 1 (shading normal; material), 2 (direction of the ray that met it; its density),
 //   3 (throughput up to here; bits of TRACED_*), 4 (radiance found, weighted; its weight),
