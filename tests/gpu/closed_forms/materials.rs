@@ -18,6 +18,7 @@ pub fn all() -> Vec<Case> {
     veils(&mut cases);
     blended_lights(&mut cases);
     volumes(&mut cases);
+    nested_media(&mut cases);
     cases
 }
 
@@ -179,6 +180,26 @@ fn volumes(cases: &mut Vec<Case>) {
         let expected = boundary + (1.0 - boundary) * (1.0 - boundary) * color / (DVec3::ONE - boundary * color);
         push(cases, name, &scene, expected, &ALL);
     }
+}
+
+/// Blocks of media that bend no light, one within another, seen along the normal of their fronts: at each height the medium counts that was
+/// entered last, also where one ends within another, and a clear one counts as well.
+fn nested_media(cases: &mut Vec<Case>) {
+    let colors = [DVec3::new(0.9, 0.6, 0.4), DVec3::new(0.3, 0.8, 0.7), DVec3::new(0.6, 0.5, 0.9)];
+    // From the top: the outer block, a clear one, one that begins before the next and ends in it, and that.
+    let blocks = [(-1.0, 0.0, Some(0)), (-0.4, -0.3, None), (-0.6, -0.45, Some(1)), (-0.75, -0.5, Some(2))];
+    let thickness = [0.3 + 0.05 + 0.25, 0.05, 0.25];
+    let mut scene = spot(64, 0.0);
+    scene.render.max_depth = 40;
+    for (bottom, top, color) in blocks {
+        let attenuation = color.map(|index: usize| Attenuation { color: colors[index], distance: 0.5 });
+        let kind = Principled { ior: 1.0, thin: false, attenuation, ..plain_principled(DVec3::ONE, 0.0, 0.0, 1.0) };
+        let material = material(&mut scene, MaterialKind::Principled(Box::new(kind)), None);
+        let block = Cuboid { min: DVec3::new(-9.0, bottom, -9.0), max: DVec3::new(9.0, top, 9.0) };
+        shape(&mut scene, Geometry::Box(block), material);
+    }
+    let expected = (0..3).map(|index| colors[index].powf(thickness[index] / 0.5)).product();
+    push(cases, "blocks within blocks", &scene, expected, &ALL);
 }
 
 /// ∫ D/(4·(1 + Λ(1) + Λ(μ))) dω of light along the normal, by the distribution and the fits of Estevez and Kulla (2017) for the width 1.
