@@ -18,7 +18,7 @@ mod view;
 
 /// A module a lobe.
 macro_rules! lobe_modules {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident)* })*) => { $($(mod $file;)*)* };
+    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident $([$($parameters:tt)*])?)* })*) => { $($(mod $file;)*)* };
 }
 crate::scene::material::material_table!(lobe_modules);
 
