@@ -36,17 +36,17 @@ fn dimension_bits4(key: u32, first_dimension: u32) -> vec4<u32> {
     return mix_bits4(vec4<u32>(key) + dimensions * GOLDEN);
 }
 
+// The bits of a point of the sequence, moved by a shift of the pixel's own.
+fn shifted(point: vec4<u32>, shift: vec4<u32>) -> vec4<u32> {
+    return select(point + shift, point ^ shift, HAS_DIGITAL_SHIFT);
+}
+
 // Bits of dimensions 4·block .. 4·block + 3 of a path. Blocks 0 and 1 are the camera's, vertex v has blocks 2v and 2v + 1.
 fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
 #if SEQUENCE
     if block < SEQUENCE_BLOCKS {
-        let shared_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE + block];
-#if DIGITAL_SHIFT
-        return shared_bits ^ dimension_bits4(key, block * 4u);
-#else
-        return shared_bits + dimension_bits4(key, block * 4u);
-#endif
+        return shifted(sequence_points[sample_in_pass * SEQUENCE_STRIDE + block], dimension_bits4(key, block * 4u));
     }
 #endif
     return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
@@ -55,20 +55,14 @@ fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
 // Hashed light samples after the first of a surface have blocks from here on.
 const HASHED_LIGHT_BLOCK: u32 = 1u << 28u;
 
-// Bits of light sample `number`, not the first, at a path's vertex number `vertex`, which ends an edge of this depth: choice of the light
-// (x), point on it (y, z).
+// Bits of light sample `number`, not the first, at a path's vertex number `vertex`, which ends an edge of
+// this depth: choice of the light (x), point on it (y, z).
 fn further_light_bits(pixel: u32, sample_in_pass: u32, vertex: u32, depth: u32, number: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
 #if SEQUENCE
     let block = SEQUENCE_BLOCKS + (depth - 1u) * (LIGHT_SAMPLES - 1u) + number - 1u;
-    let shared_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE + block];
-    // The shift of the first one's block: together they stay one sequence.
-    let shift = dimension_bits4(key, 8u * vertex);
-#if DIGITAL_SHIFT
-    return shared_bits ^ shift;
-#else
-    return shared_bits + shift;
-#endif
+    // The shift is that of the first one's block: together they stay one sequence.
+    return shifted(sequence_points[sample_in_pass * SEQUENCE_STRIDE + block], dimension_bits4(key, 8u * vertex));
 #else
     let block = HASHED_LIGHT_BLOCK + 16u * vertex + number;
     return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
@@ -78,26 +72,20 @@ fn further_light_bits(pixel: u32, sample_in_pass: u32, vertex: u32, depth: u32, 
 // Bits for the position in the pixel (x, y) and on the lens (z, w). The pixel's may have a sampler of their own.
 fn camera_block(pixel: u32, sample_in_pass: u32) -> vec4<u32> {
     let random = random_block(pixel, sample_in_pass, 0u);
-#if PIXEL_CENTRE
-    return vec4<u32>(0x80000000u, 0x80000000u, random.zw);
-#else
-#if PIXEL_HASHED
-    let key = path_key(pixel_key(pixel), pass_parameters.first_sample + sample_in_pass);
-    return vec4<u32>(dimension_bits4(key, 0u).xy, random.zw);
-#else
+    var in_pixel = random;
+    if HAS_PIXEL_CENTRE {
+        in_pixel = vec4<u32>(0x80000000u);
+    }
+    if HAS_PIXEL_HASHED {
+        in_pixel = dimension_bits4(path_key(pixel_key(pixel), pass_parameters.first_sample + sample_in_pass), 0u);
+    }
 #if PIXEL_ROTATION
-    let own_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE] + dimension_bits4(pixel_key(pixel), 0u);
-    return vec4<u32>(own_bits.xy, random.zw);
-#else
+    in_pixel = sequence_points[sample_in_pass * SEQUENCE_STRIDE] + dimension_bits4(pixel_key(pixel), 0u);
+#endif
 #if PIXEL_DIGITAL_SHIFT
-    let own_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE] ^ dimension_bits4(pixel_key(pixel), 0u);
-    return vec4<u32>(own_bits.xy, random.zw);
-#else
-    return random;
+    in_pixel = sequence_points[sample_in_pass * SEQUENCE_STRIDE] ^ dimension_bits4(pixel_key(pixel), 0u);
 #endif
-#endif
-#endif
-#endif
+    return vec4<u32>(in_pixel.xy, random.zw);
 }
 
 // [0, 1), a multiple of 2^-24.

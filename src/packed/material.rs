@@ -44,10 +44,8 @@ shared_constants!(flags {
     const FACET_KNEE: f32 = material::FACET_KNEE as f32;
     const SHEEN_KNEE: f32 = material::SHEEN_KNEE as f32;
     const SMALLEST_SHEEN_ROUGHNESS: f32 = material::SMALLEST_SHEEN_ROUGHNESS as f32;
-    /// Likewise, where the texels of its coat's normals stand; their scale is the next.
-    const COAT_NORMAL_PARAMETER: u32 = material::COAT_NORMAL_PARAMETER as u32;
-    /// Likewise, where the texels of its anisotropy's direction stand.
-    const DIRECTION_PARAMETER: u32 = material::DIRECTION_PARAMETER as u32;
+    /// The place of the texels of a coat's normals among the further parameters of its material.
+    const COAT_TEXEL_PARAMETER: u32 = material::COAT_TEXEL_PARAMETER as u32;
     /// Nearer to 1 an index of refraction bends no light.
     const SMALLEST_BEND: f32 = material::SMALLEST_BEND as f32;
     /// Angles in the table of what a rough plastic's surface lets through.
@@ -194,6 +192,14 @@ fn scalar_and_texture(input: &ColorInput) -> (f32, u32, u32) {
     }
 }
 
+/// A table among further parameters, three numbers an entry.
+fn table_entries(table: &[f32]) -> impl Iterator<Item = PackedParameter> {
+    table.chunks(3).map(|numbers| {
+        let at = |place: usize| numbers.get(place).copied().unwrap_or(0.0);
+        PackedParameter { color: [at(0), at(1), at(2)], texture: NONE }
+    })
+}
+
 impl PackedMaterials {
     /// Packs the materials that surfaces have, in the scene's order, and behind them those that only their blends are made of. Textures
     /// keep the scene's numbers until they are packed.
@@ -239,10 +245,7 @@ impl PackedMaterials {
         let [separable, height_correlated, sheen] = [separable, height_correlated, sheen].map(|table| {
             let first = self.further.len();
             let shares: Vec<f32> = table?.shares().collect();
-            self.further.extend(shares.chunks(3).map(|shares| {
-                let at = |place: usize| shares.get(place).copied().unwrap_or(0.0);
-                PackedParameter { color: [at(0), at(1), at(2)], texture: NONE }
-            }));
+            self.further.extend(table_entries(&shares));
             Some(first)
         });
         self.albedos = AlbedoPlaces { separable, height_correlated, sheen };
@@ -272,11 +275,12 @@ impl PackedMaterials {
     fn plain(&mut self, material: &Material) -> PackedMaterial {
         let mut packed = PackedMaterial::new(material);
         if let Some(lobe) = material.kind.lobe().filter(|lobe| !lobe.further.is_empty()) {
-            packed.further = self.further.len() as u32 | (lobe.looked_up as u32) << FURTHER_SHIFT;
+            packed.further = self.further.len() as u32 | (lobe.further.len() as u32) << FURTHER_SHIFT;
             self.further.extend(lobe.further.iter().map(|input| {
                 let (color, texture) = color_and_texture(input);
                 PackedParameter { color, texture }
             }));
+            self.further.extend(table_entries(&lobe.table));
         }
         packed
     }

@@ -7,6 +7,7 @@ pub fn files() -> Vec<(&'static str, String)> {
     vec![
         (layout::FILE, layout::wgsl()),
         (lobes::FILE, lobes::wgsl()),
+        (lobes::PARAMETERS_FILE, lobes::parameters_wgsl()),
         (lights::DELTA_FILE, lights::delta_wgsl()),
         (lights::OUTSIDE_FILE, lights::outside_wgsl()),
         (shapes::GEOMETRY_FILE, shapes::geometry_wgsl()),

@@ -1,12 +1,18 @@
-//! The WGSL file that hands each lobe on to the functions in its own file, by the table of materials.
+//! WGSL files by the table of materials: one hands each lobe on to the functions in its own file, one names
+//! the further parameters of each.
 
+use crate::scene::material::ParameterType;
 use crate::scene::{LobeKind, LobeSupport};
 
-/// Name under which kernels import it.
+/// Name under which kernels import the file that hands lobes on.
 pub const FILE: &str = "shading/material/lobes.wgsl";
 
-/// The file's text. A lobe `NAME` has the functions `NAME_sampling_weight` and `sample_NAME`, and unless it is a delta
-/// `NAME_is_non_delta` and `evaluate_NAME`; only lobes that the plan turns on are compiled.
+/// Name under which kernels import the file of further parameters.
+pub const PARAMETERS_FILE: &str = "shading/material/parameters.wgsl";
+
+/// The text of the file that hands lobes on. A lobe `NAME` has the functions `NAME_sampling_weight` and
+/// `sample_NAME`, and unless it is a delta `NAME_is_non_delta` and `evaluate_NAME`; only lobes that the plan
+/// turns on are compiled.
 pub fn wgsl() -> String {
     let mut text = "// Written by src/plan/lobes.rs.\n".to_owned();
     for import in ["core/layout.wgsl", "shading/material/lobe.wgsl", "shading/material/scattering.wgsl", "shading/surface.wgsl"] {
@@ -17,16 +23,41 @@ pub fn wgsl() -> String {
     }
     let all = || LobeKind::ALL.iter().copied();
     let non_delta = || all().filter(|lobe| lobe.support() != LobeSupport::Delta);
-    text += "\n// Whether light sampling can contribute: it is no delta lobe, and not black.\n";
+    text += "\n// Light sampling can contribute: the lobe is no delta, and not black.\n";
     text += &dispatch("lobe_is_non_delta(lobe: Lobe) -> bool", non_delta(), "false", |name| format!("{name}_is_non_delta(lobe)"));
-    text += "\n// How much of the incoming light it sends on, roughly: what its share of a mixture's samples goes by.\n";
+    text += "\n// The share of incoming light that the lobe scatters, roughly, by which a mixture chooses its samples.\n";
     text += &dispatch("lobe_sampling_weight(lobe: Lobe) -> f32", all(), "0.0", |name| format!("{name}_sampling_weight(lobe)"));
     text += "\n// f |cos| and density; 0 for delta lobes.\n";
     let signature = "evaluate_lobe(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue";
     text += &dispatch(signature, non_delta(), "no_value()", |name| format!("evaluate_{name}(lobe, surface, wo, wi)"));
-    text += "\n// Draws a direction. `choice` chooses between the ways that one lobe has, (u, v) the direction within.\n";
+    text += "\n// Draws a direction. `choice` chooses between the ways of one lobe to scatter, (u, v) the direction within.\n";
     let signature = "sample_lobe(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample";
     text + &dispatch(signature, all(), "no_sample()", |name| format!("sample_{name}(lobe, surface, wo, choice, u, v)"))
+}
+
+/// The text of the file of further parameters: of each lobe that has some, a struct of them and the function
+/// that fills it.
+pub fn parameters_wgsl() -> String {
+    let mut text =
+        "// Written by src/plan/lobes.rs.\n#import core/spectrum.wgsl\n#import shading/material/lobe.wgsl\n".to_owned();
+    for lobe in LobeKind::ALL.iter().filter(|lobe| !lobe.parameters().is_empty()) {
+        let (mut fields, mut values) = (String::new(), Vec::new());
+        for (place, parameter) in lobe.parameters().iter().enumerate() {
+            let (type_name, part) = match parameter.parameter_type {
+                ParameterType::Scalar | ParameterType::SignedScalar => ("f32", ".x"),
+                ParameterType::Color => ("Spectrum", ""),
+                ParameterType::Vector => ("vec3<f32>", ""),
+            };
+            fields += &format!("    {}: {type_name},\n", parameter.name);
+            let default = parameter.default.unwrap_or("0.0");
+            values.push(format!("        further_parameter(lobe, {place}u, vec3<f32>({default})){part}"));
+        }
+        let (file, values) = (lobe.file(), values.join(",\n"));
+        text +=
+            &format!("\nstruct {lobe:?}Parameters {{\n{fields}}}\n\nfn {file}_parameters(lobe: Lobe) -> {lobe:?}Parameters {{\n");
+        text += &format!("    return {lobe:?}Parameters(\n{values}\n    );\n}}\n");
+    }
+    text
 }
 
 /// A function that calls another one by the kind of lobe.

@@ -9,7 +9,7 @@ use super::blend_tree::check_blends;
 use super::camera::{ApertureShape, Camera, Projection};
 use super::check::{Check, image, is_amount, is_positive, within_range};
 use super::light::{Environment, EnvironmentRadiance, Light};
-use super::material::{BlendWeight, Material, MaterialId, MaterialKind};
+use super::material::{BlendWeight, Material, MaterialId, MaterialKind, ParameterType};
 use super::model::Scene;
 use super::settings::BadSetting;
 use super::shape::{Geometry, Shape};
@@ -104,7 +104,10 @@ impl Scene {
         if lobe.ior.is_some_and(|ior| !is_positive(ior)) {
             return Err("the index of refraction must be positive".into());
         }
-        lobe.inputs().try_for_each(|input| self.color(&input))
+        lobe.inputs().try_for_each(|(parameter_type, input)| match (parameter_type, input) {
+            (ParameterType::SignedScalar | ParameterType::Vector, ColorInput::Constant(vector)) if vector.is_finite() => Ok(()),
+            _ => self.color(&input),
+        })
     }
 
     fn weight(&self, mut weight: &BlendWeight) -> Check {

@@ -84,7 +84,8 @@ fn mark(scene: &Scene, marks: &mut [bool], id: MaterialId) {
 /// Textures that the material itself looks up.
 fn textures_of(material: &Material) -> Vec<TextureId> {
     let of_input = |input: ColorInput| input.texture();
-    let mut textures: Vec<TextureId> = material.kind.lobe().iter().flat_map(|lobe| lobe.inputs()).filter_map(of_input).collect();
+    let mut textures: Vec<TextureId> =
+        material.kind.lobe().iter().flat_map(|lobe| lobe.inputs()).filter_map(|(_, input)| of_input(input)).collect();
     textures.extend(material.emission.and_then(|emission| of_input(emission.radiance)));
     textures.extend(material.normal_map);
     if let MaterialKind::Blend { weight, .. } = &material.kind {

@@ -90,7 +90,7 @@ const HELD_BESIDE_TRIANGLES: &[&str] = HELD.split_at(1).1;
 
 /// A switch for each lobe in the table of materials.
 macro_rules! lobes {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident)* })*) => {
+    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
         const LOBES: &[Switch] = &[$($(lobes!(@requires $support stringify!($switch)),)*)*];
     };
     (@requires Sphere $name:expr) => { switch($name).requires(&["NON_DELTA_TRANSMISSION"]) };

@@ -2,29 +2,31 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/material/lobe.wgsl
+#import shading/material/parameters.wgsl
 #import shading/microfacet/microfacet.wgsl
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 
 fn conductor_is_non_delta(lobe: Lobe) -> bool {
-    return !facets_are_smooth(lobe_facets(lobe));
+    return !facets_are_smooth(conductor_facets(lobe));
 }
 
 fn conductor_sampling_weight(lobe: Lobe) -> f32 {
     return max_component(conductor_reflectance(lobe, 1.0));
 }
 
-// What a microfacet reflects.
-fn conductor_reflectance(lobe: Lobe, cosine: f32) -> Spectrum {
-#if FURTHER_PARAMETERS
-    return conductor_fresnel(lobe, cosine) * further_parameter(lobe, 1u, WHITE);
-#else
-    return conductor_fresnel(lobe, cosine);
-#endif
+fn conductor_facets(lobe: Lobe) -> Facets {
+    return lobe_facets(lobe, conductor_parameters(lobe).width_across);
 }
 
-// Reflectance of a metal: the exact equations for a complex index of refraction, or Schlick's approximation.
+// The reflectance of a microfacet.
+fn conductor_reflectance(lobe: Lobe, cosine: f32) -> Spectrum {
+    return conductor_fresnel(lobe, cosine) * conductor_parameters(lobe).specular_reflectance;
+}
+
+// The reflectance of a metal: the exact equations for a complex index of refraction, or Schlick's
+// approximation.
 fn conductor_fresnel(lobe: Lobe, cosine: f32) -> Spectrum {
     let c2 = cosine * cosine;
     if (lobe.kind & COMPLEX_FRESNEL) == 0u {
@@ -48,7 +50,7 @@ fn conductor_fresnel(lobe: Lobe, cosine: f32) -> Spectrum {
 }
 
 fn evaluate_conductor(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    let facets = lobe_facets(lobe);
+    let facets = conductor_facets(lobe);
     if facets_are_smooth(facets) || !on_wo_side(surface, wi) {
         return no_value();
     }
@@ -68,7 +70,7 @@ fn conductor_value(lobe: Lobe, facets: Facets, o: vec3<f32>, i: vec3<f32>, m: ve
 }
 
 fn sample_conductor(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    let facets = lobe_facets(lobe);
+    let facets = conductor_facets(lobe);
     if facets_are_smooth(facets) {
         let wi = mirrored(surface, wo);
         if dot(wi, surface.facing_normal) <= 0.0 {

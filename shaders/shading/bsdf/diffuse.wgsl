@@ -22,7 +22,7 @@ fn sample_diffuse(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f
     return sample_lambert(lobe.color0, surface, u, v);
 }
 
-// A mixture's diffuse lobes together are one.
+// The diffuse lobe by its reflectance: those of a mixture are evaluated together.
 fn evaluate_lambert(reflectance: Spectrum, surface: Surface, wi: vec3<f32>) -> BsdfValue {
     if !on_wo_side(surface, wi) {
         return no_value();

@@ -2,6 +2,7 @@
 #import shading/microfacet/fresnel.wgsl
 #import shading/microfacet/hemisphere.wgsl
 #import shading/material/lobe.wgsl
+#import shading/material/parameters.wgsl
 #import shading/microfacet/plastic.wgsl
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
@@ -23,8 +24,9 @@ fn evaluate_plastic(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) 
     let cosine = dot(wi, surface.shading_normal);
     let fresnel_o = fresnel_dielectric(min(dot(wo, surface.shading_normal), 1.0), lobe.ior);
     let fresnel_i = fresnel_dielectric(min(cosine, 1.0), lobe.ior);
+    let internal_reflectance = plastic_parameters(lobe).internal_reflectance;
     return BsdfValue(
-        plastic_base(lobe, fresnel_o.transmitted, fresnel_i.transmitted) * cosine,
+        plastic_base(lobe, internal_reflectance, fresnel_o.transmitted, fresnel_i.transmitted) * cosine,
         (1.0 - plastic_specular_share(lobe, fresnel_o.reflected)) * hemisphere_pdf(cosine)
     );
 }

@@ -3,23 +3,29 @@
 #import shading/microfacet/dielectric.wgsl
 #import shading/microfacet/fresnel.wgsl
 #import shading/material/lobe.wgsl
+#import shading/material/parameters.wgsl
 #import shading/microfacet/microfacet.wgsl
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 
+fn rough_glass_facets(lobe: Lobe) -> Facets {
+    return lobe_facets(lobe, rough_glass_parameters(lobe).width_across);
+}
+
 fn rough_glass_is_non_delta(lobe: Lobe) -> bool {
-    return !facets_are_smooth(lobe_facets(lobe));
+    return !facets_are_smooth(rough_glass_facets(lobe));
 }
 
 fn rough_glass_sampling_weight(lobe: Lobe) -> f32 {
     return dielectric_sampling_weight(lobe);
 }
 
-// Both lobes by the side of wi. The refraction's half vector lies along wo + eta wi; its Jacobian is Walter et al. 2007, equation 17
-// with eta = transmitted over incident: |wi·m| / (wi·m + wo·m / eta)². Radiance is scaled by 1 / eta².
+// Both lobes by the side of wi. The refraction's half vector lies along wo + eta wi; its Jacobian is Walter
+// et al. 2007, equation 17 with eta = transmitted over incident: |wi·m| / (wi·m + wo·m / eta)². Radiance is
+// scaled by 1 / eta².
 fn evaluate_rough_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    let facets = lobe_facets(lobe);
+    let facets = rough_glass_facets(lobe);
     if facets_are_smooth(facets) {
         return no_value();
     }
@@ -61,7 +67,7 @@ fn rough_glass_value(lobe: Lobe, facets: Facets, o: vec3<f32>, i: vec3<f32>, m: 
 }
 
 fn sample_rough_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    let facets = lobe_facets(lobe);
+    let facets = rough_glass_facets(lobe);
     if facets_are_smooth(facets) {
         return sample_delta_dielectric(lobe, surface, wo, choice);
     }

@@ -1,15 +1,20 @@
-// A thin plate of glass whose microfacets lie alike on both sides: what one lets through goes where its reflection would, mirrored in the
-// surface.
+// A thin plate of glass whose microfacets lie alike on both sides: light that one lets through goes in the
+// direction of its reflection, mirrored in the surface.
 #import core/math.wgsl
 #import shading/microfacet/dielectric.wgsl
 #import shading/material/lobe.wgsl
+#import shading/material/parameters.wgsl
 #import shading/microfacet/microfacet.wgsl
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 
+fn rough_thin_glass_facets(lobe: Lobe) -> Facets {
+    return lobe_facets(lobe, rough_thin_glass_parameters(lobe).width_across);
+}
+
 fn rough_thin_glass_is_non_delta(lobe: Lobe) -> bool {
-    return !facets_are_smooth(lobe_facets(lobe));
+    return !facets_are_smooth(rough_thin_glass_facets(lobe));
 }
 
 fn rough_thin_glass_sampling_weight(lobe: Lobe) -> f32 {
@@ -17,7 +22,7 @@ fn rough_thin_glass_sampling_weight(lobe: Lobe) -> f32 {
 }
 
 fn evaluate_rough_thin_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    let facets = lobe_facets(lobe);
+    let facets = rough_thin_glass_facets(lobe);
     let reflects = on_wo_side(surface, wi);
     if facets_are_smooth(facets) || (!reflects && !on_far_side(surface, wi)) {
         return no_value();
@@ -43,7 +48,7 @@ fn rough_thin_glass_value(lobe: Lobe, facets: Facets, o: vec3<f32>, i: vec3<f32>
 }
 
 fn sample_rough_thin_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    let facets = lobe_facets(lobe);
+    let facets = rough_thin_glass_facets(lobe);
     if facets_are_smooth(facets) {
         return sample_delta_plate(lobe, surface, wo, choice);
     }

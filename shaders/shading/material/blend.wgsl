@@ -1,6 +1,7 @@
-// Blends: a tree of any depth is a run of parts, each with the weights along its branch as data. A plain material is its own only part.
-// A part takes one vec4 of the tables: (material; first factor; number of factors; constant factor). A factor is a blend weight; where
-// it stands for the second child it is stored reversed.
+// Blends: a tree of any depth is a run of parts, each with the weights along its branch as data. A plain
+// material is its own only part.
+// A part takes one vec4 of the tables: (material; first factor; number of factors; constant factor). A factor
+// is a blend weight; a factor of the second child is stored reversed.
 #import core/layout.wgsl
 #import core/spectrum.wgsl
 #import geometry/scene.wgsl
@@ -28,10 +29,8 @@ fn part_run(material: u32) -> PartRun {
 struct WeightedPart {
     material: u32,
     weight: f32,
-#if ONE_SIDED
     // The back scatters nothing.
     front_only: bool,
-#endif
 }
 
 fn part_material(run: PartRun, index: u32) -> u32 {
@@ -43,34 +42,22 @@ fn part_material(run: PartRun, index: u32) -> u32 {
 
 fn weighted_part(run: PartRun, index: u32, seen: Seen, uv: TextureCoordinates) -> WeightedPart {
     if run.first == NONE {
-#if ONE_SIDED
         return WeightedPart(run.material, 1.0, is_front_only(run.material));
-#else
-        return WeightedPart(run.material, 1.0);
-#endif
     }
     let word = tables[FIRST_PART_WORD + run.first + index];
     let part = bitcast<vec4<u32>>(word);
     var weight = word.w;
-#if ONE_SIDED
     let count = part.z & ~PART_FRONT_ONLY;
-#else
-    let count = part.z;
-#endif
     for (var factor = part.y; factor < part.y + count; factor++) {
         weight *= blend_weight(factor, seen, uv);
     }
-#if ONE_SIDED
     return WeightedPart(part.x, weight, (part.z & PART_FRONT_ONLY) != 0u);
-#else
-    return WeightedPart(part.x, weight);
-#endif
 }
 
-// Σ wᵢ Leᵢ, and what the blend emits by itself.
-fn blended_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> Spectrum {
+// Radiance that a material sends out towards where it is seen from: Σ wᵢ Leᵢ of a blend, and its own.
+fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> Spectrum {
     var radiance = own_emission(material, seen.front, uv);
-    if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & PARTS_EMIT) != 0u {
+    if HAS_BLENDS && (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & PARTS_EMIT) != 0u {
         let run = part_run(material);
         // Behind the parts stand the inner blends that emit by themselves.
         let count = run.count + bitcast<u32>(tables[material * MATERIAL_WORDS + 1u].z);

@@ -1,4 +1,4 @@
-// What decides the weights of a blend: one vec4 of the tables each,
+// The weights of a blend: one vec4 of the tables each,
 //   (kind and flags; value, power or index of refraction; threshold; texture or NONE)
 #import core/layout.wgsl
 #import core/math.wgsl
@@ -14,36 +14,40 @@ fn blend_weight(index: u32, seen: Seen, uv: TextureCoordinates) -> f32 {
     let cosine = seen.cosine;
     var w = h.y;
     switch flags & 255u {
-#if WEIGHTS_BY_ANGLE
         case WEIGHT_FACING: {
-            w = select(pow(cosine, h.y), 0.0, cosine <= 0.0);
+            if HAS_WEIGHTS_BY_ANGLE {
+                w = select(pow(cosine, h.y), 0.0, cosine <= 0.0);
+            }
         }
         case WEIGHT_FRESNEL_SCHLICK: {
-            let r = (h.y - 1.0) / (h.y + 1.0);
-            let away = 1.0 - cosine;
-            let away2 = away * away;
-            w = 1.0 - mix(away2 * away2 * away, 1.0, r * r);
+            if HAS_WEIGHTS_BY_ANGLE {
+                let r = (h.y - 1.0) / (h.y + 1.0);
+                let away = 1.0 - cosine;
+                let away2 = away * away;
+                w = 1.0 - mix(away2 * away2 * away, 1.0, r * r);
+            }
         }
         case WEIGHT_FRESNEL_EXACT: {
-            w = fresnel_dielectric(cosine, h.y).transmitted;
+            if HAS_WEIGHTS_BY_ANGLE {
+                w = fresnel_dielectric(cosine, h.y).transmitted;
+            }
         }
-#endif
-#if WEIGHTS_BY_SIDE
         case WEIGHT_FRONT: {
-            w = select(0.0, 1.0, seen.front);
+            if HAS_WEIGHTS_BY_SIDE {
+                w = select(0.0, 1.0, seen.front);
+            }
         }
-#endif
-#if WEIGHTS_BY_VIEWER
         case WEIGHT_CAMERA: {
-            w = select(0.0, 1.0, seen.by_camera);
+            if HAS_WEIGHTS_BY_VIEWER {
+                w = select(0.0, 1.0, seen.by_camera);
+            }
         }
-#endif
-#if TEXTURES
         case WEIGHT_TEXTURE, WEIGHT_CHANNEL: {
-            let color = texture_color(bitcast<u32>(h.w), uv);
-            w = select(luminance(color), h.y * color.x, (flags & 255u) == WEIGHT_CHANNEL);
+            if HAS_TEXTURES {
+                let color = texture_color(bitcast<u32>(h.w), uv);
+                w = select(luminance(color), h.y * color.x, (flags & 255u) == WEIGHT_CHANNEL);
+            }
         }
-#endif
         default: {}
     }
     w = clamp(w, 0.0, 1.0);

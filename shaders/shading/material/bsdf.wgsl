@@ -1,33 +1,21 @@
-// What a surface does to light, whatever its material is made of: load, evaluate, sample.
+// The scattering of light by a surface, whatever its material is made of: load, evaluate, sample.
 #import core/spectrum.wgsl
 #import shading/texture/normal_shadowing.wgsl
-#import shading/texture/coordinates.wgsl
+#export shading/material/blend.wgsl
 #import shading/material/scattering.wgsl
 #import shading/material/seen.wgsl
 #import shading/surface.wgsl
-#import shading/material/blend.wgsl
-#import shading/material/lobe.wgsl
-#import shading/material/lobes.wgsl
-
-// Radiance that a material sends out in the direction from which it is seen.
-fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> Spectrum {
-    if HAS_BLENDS {
-        return blended_emission(material, seen, uv);
-    } else {
-        return own_emission(material, seen.front, uv);
-    }
-}
-
 #if MIXTURE
 #export shading/material/mixture.wgsl
 #else
+#import shading/material/lobe.wgsl
+#import shading/material/lobes.wgsl
 
 // The material has a single lobe, by itself or because one was picked.
 struct Bsdf {
     lobe: Lobe,
 }
 
-#if PICK
 // One part of the blend per hit, chosen with its weight as probability; from then on it is the whole material.
 fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> WeightedPart {
     let seen = seen_along(surface, wo);
@@ -38,7 +26,7 @@ fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> WeightedPart {
     for (var index = 0u; index < run.count; index++) {
         let part = weighted_part(run, index, seen, surface.uv);
         if part.weight > 0.0 {
-            // The last part of any weight takes what rounding leaves over.
+            // The last part of any weight takes the remainder that rounding leaves.
             chosen = part;
             below += part.weight;
             if choice < below {
@@ -50,36 +38,25 @@ fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> WeightedPart {
 }
 
 fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
-    let part = pick_part(surface, wo, choice);
-#if ONE_SIDED
-    if part.front_only && !surface.front {
+    var part = WeightedPart(surface.material, 1.0, is_front_only(surface.material));
+    if HAS_PICK {
+        part = pick_part(surface, wo, choice);
+    }
+    if HAS_ONE_SIDED && part.front_only && !surface.front {
         return Bsdf(no_lobe());
     }
-#endif
     return Bsdf(load_lobe(part.material, surface.uv));
 }
-#else
-fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
-#if ONE_SIDED
-    if !surface.front && is_front_only(surface.material) {
-        return Bsdf(no_lobe());
-    }
-#endif
-    return Bsdf(load_lobe(surface.material, surface.uv));
-}
-#endif
 
-// Whether light sampling can contribute: some lobe is not a delta, and not black.
+// Light sampling can contribute: some lobe is not a delta, and not black.
 fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
     return lobe_is_non_delta(bsdf.lobe);
 }
 
-#if GUIDE
 // The probability of lobes that scatter in all directions, whose samples a guide may replace.
 fn guided_probability(bsdf: Bsdf) -> f32 {
     return select(0.0, 1.0, lobe_is_broad(bsdf.lobe));
 }
-#endif
 
 fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
     return evaluate_lobe(bsdf.lobe, surface, wo, wi);
@@ -96,23 +73,22 @@ struct Scattering {
     drawn: BsdfSample,
 }
 
-// With the shadow that the surface throws on a bent normal. Light that goes straight on through a null surface meets no normal.
+// The scattering with the shadow that the surface throws on a normal from a map. Light that goes straight on
+// through a null surface meets no normal.
 fn shadowed(scattering: Scattering, surface: Surface, light_wi: vec3<f32>) -> Scattering {
-#if NORMAL_SHADOWING
     var found = scattering;
+#if NORMAL_SHADOWING
     found.towards_light.value *= normal_shadowing(surface.unbent_normal, surface.shading_normal, light_wi);
     if !found.drawn.is_null {
         found.drawn.weight *= normal_shadowing(surface.unbent_normal, surface.shading_normal, found.drawn.wi);
     }
-    return found;
-#else
-    return scattering;
 #endif
+    return found;
 }
 
 #if MORE_LOBES
-// The surface is evaluated towards the light and along the drawn direction by the same code, one after the other: drivers that copy what
-// is called to wherever it is called have half of it to compile.
+// The surface is evaluated towards the light and along the drawn direction by the same code, one after the
+// other: drivers that copy a function to each of its calls have half of it to compile.
 fn scatter(
     bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {

@@ -1,4 +1,4 @@
-// The Bsdf of a blend in mixture mode.
+// The Bsdf of a blend in mixture mode: every lobe is evaluated, one is sampled.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/material/blend.wgsl
@@ -9,7 +9,7 @@
 #import shading/material/seen.wgsl
 #import shading/surface.wgsl
 
-// Every lobe is evaluated, one is sampled. All diffuse ones together are one, the first: a blend of Lamberts is a Lambert.
+// The lobes of the blend. All diffuse ones together are one, the first: a blend of Lamberts is a Lambert.
 struct Bsdf {
     run: PartRun,
     seen: Seen,
@@ -18,14 +18,10 @@ struct Bsdf {
     // The sum of all lobes' sampling weights: the denominator of their probabilities.
     total: f32,
     non_delta_lobe: bool,
-#if MORE_LOBES
     // There are lobes besides the diffuse one.
     more_lobes: bool,
-#if GUIDE
-    // The part of `total` that lobes have which scatter in all directions, beside the diffuse one.
+    // The part of `total` of the lobes that scatter in all directions, without the diffuse one.
     broad: f32,
-#endif
-#endif
 }
 
 // A part of the blend that is a lobe of its own, with its share of `total`; 0 for those that are not.
@@ -38,11 +34,9 @@ struct WeightedLobe {
 fn load_weighted_lobe(bsdf: Bsdf, index: u32, surface: Surface) -> WeightedLobe {
     let part = weighted_part(bsdf.run, index, bsdf.seen, surface.uv);
     var weighted: WeightedLobe;
-#if ONE_SIDED
-    if part.front_only && !surface.front {
+    if HAS_ONE_SIDED && part.front_only && !surface.front {
         return weighted;
     }
-#endif
     if part.weight > 0.0 {
         weighted.lobe = load_lobe(part.material, surface.uv);
         weighted.weight = part.weight;
@@ -62,16 +56,12 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
         if weighted.weight > 0.0 && lobe_kind(weighted.lobe) == DIFFUSE {
             bsdf.diffuse += weighted.weight * weighted.lobe.color0;
         }
-#if MORE_LOBES
-        if weighted.share > 0.0 {
+        if HAS_MORE_LOBES && weighted.share > 0.0 {
             bsdf.total += weighted.share;
             bsdf.more_lobes = true;
-#if GUIDE
             bsdf.broad += select(0.0, weighted.share, lobe_is_broad(weighted.lobe));
-#endif
             bsdf.non_delta_lobe = bsdf.non_delta_lobe || lobe_is_non_delta(weighted.lobe);
         }
-#endif
     }
     let diffuse_share = max_component(bsdf.diffuse);
     bsdf.total += diffuse_share;
@@ -83,29 +73,26 @@ fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
     return bsdf.non_delta_lobe;
 }
 
-#if GUIDE
 // The probability of lobes that scatter in all directions, whose samples a guide may replace.
 fn guided_probability(bsdf: Bsdf) -> f32 {
     if bsdf.total <= 0.0 {
         return 0.0;
     }
-#if MORE_LOBES
+    if !HAS_MORE_LOBES {
+        return 1.0;
+    }
     return (max_component(bsdf.diffuse) + bsdf.broad) / bsdf.total;
-#else
-    return 1.0;
-#endif
 }
-#endif
 
-// Σ wⱼ fⱼ |cos| and Σ Pⱼ pdfⱼ over the non-delta lobes: what next event estimation and sampling agree on.
+// Σ wⱼ fⱼ |cos| and Σ Pⱼ pdfⱼ over the non-delta lobes: the values that next event estimation and sampling
+// agree on.
 fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
     if bsdf.total <= 0.0 {
         return no_value();
     }
     var sum = evaluate_lambert(bsdf.diffuse, surface, wi);
     sum.pdf_solid_angle *= max_component(bsdf.diffuse) / bsdf.total;
-#if MORE_LOBES
-    if bsdf.more_lobes {
+    if HAS_MORE_LOBES && bsdf.more_lobes {
         for (var index = 0u; index < bsdf.run.count; index++) {
             let weighted = load_weighted_lobe(bsdf, index, surface);
             if weighted.share > 0.0 {
@@ -115,15 +102,14 @@ fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> 
             }
         }
     }
-#endif
     return sum;
 }
 
-#if MORE_LOBES
-// A direction drawn from one lobe, before the others have had their say.
+// A direction drawn from one lobe, before the others are evaluated.
 struct Draw {
     chosen: BsdfSample,
-    // Other non-delta lobes may draw the same direction: the sample counts what all of them make of it.
+    // Other non-delta lobes may draw the same direction: the weight of the sample is that of all of them
+    // together.
     mixed: bool,
 }
 
@@ -142,7 +128,7 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
         for (var index = 0u; index < bsdf.run.count; index++) {
             let candidate = load_weighted_lobe(bsdf, index, surface);
             if candidate.share > 0.0 {
-                // The last lobe takes what rounding leaves over.
+                // The last lobe takes the remainder that rounding leaves.
                 weighted = candidate;
                 probability = candidate.share / bsdf.total;
                 below += probability;
@@ -151,7 +137,7 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
                 }
             }
         }
-        // What is left of the random number once it has chosen the lobe.
+        // The random digits that the choice of the lobe leaves.
         let left = clamp((choice - (below - probability)) / probability, 0.0, LARGEST_NUMBER);
         chosen = sample_lobe(weighted.lobe, surface, wo, left, u, v);
         chosen.weight *= weighted.weight;
@@ -164,7 +150,7 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
     return Draw(chosen, probability != 1.0 && max_component(chosen.weight) > 0.0);
 }
 
-// The sample, given what all non-delta lobes make of its direction.
+// The sample, given the value of all non-delta lobes together in its direction.
 fn mixed_sample(draw: Draw, all: BsdfValue) -> BsdfSample {
     var chosen = draw.chosen;
     if draw.mixed {
@@ -176,12 +162,11 @@ fn mixed_sample(draw: Draw, all: BsdfValue) -> BsdfSample {
     }
     return chosen;
 }
-#else
-// The diffuse lobe is the only one.
+
+// A direction drawn where the diffuse lobe is the only one.
 fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
     if bsdf.total <= 0.0 {
         return no_sample();
     }
     return sample_lambert(bsdf.diffuse, surface, u, v);
 }
-#endif

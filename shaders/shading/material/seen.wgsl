@@ -1,14 +1,14 @@
-// How a surface is seen: what the weights of its blends may depend on.
+// The view of a surface, on which the weights of its blends may depend.
 
 struct Seen {
-    // The cosine of the angle between the direction from which it is seen and the shading normal, from 0 to 1.
+    // The cosine of the angle between the direction from where it is seen and the shading normal, from 0 to 1.
     cosine: f32,
     front: bool,
-    // Seen by a ray of the camera that nothing has scattered.
+    // A ray of the camera that nothing has scattered sees it; read where weights depend on that alone.
     by_camera: bool,
 }
 
-// Seen by anything but the camera.
+// The view from anywhere but the camera.
 fn seen_by_light(cosine: f32, front: bool) -> Seen {
     return Seen(cosine, front, false);
 }

@@ -1,14 +1,15 @@
-// Microfacets: sampling of visible normals and Smith shadowing. Local directions: z along the shading normal, x along the tangent.
+// Microfacets: sampling of visible normals and Smith shadowing. Local directions: z along the shading normal,
+// x along the tangent.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/material/lobe.wgsl
 #import shading/surface.wgsl
 #import shading/microfacet/beckmann.wgsl
 
-// GGX, heights correlated, where no flag says otherwise.
+// Microfacets of GGX with correlated heights, unless a flag says otherwise.
 struct Facets {
+    // The width: along the tangent, and across it.
     alpha: f32,
-    // Across the tangent.
     alpha_v: f32,
     // The lobe's kind and form.
     flags: u32,
@@ -18,28 +19,34 @@ fn to_local(frame: Frame, w: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(dot(w, frame.tangent), dot(w, frame.bitangent), dot(w, frame.normal));
 }
 
-// Those of a lobe. Of two widths, one too narrow to be resolved is as wide as can be.
-fn lobe_facets(lobe: Lobe) -> Facets {
-#if ANISOTROPY
-    if (lobe.kind & ANISOTROPIC) != 0u {
-        let widths = vec2<f32>(lobe.roughness, lobe_width_across(lobe));
+// Microfacets of a lobe, given its parameter `width_across`. The narrower of two widths is not below the
+// smallest that is resolved if the wider one is not.
+fn lobe_facets(lobe: Lobe, width_across: f32) -> Facets {
+    if HAS_ANISOTROPY && (lobe.kind & ANISOTROPIC) != 0u {
+        let across = select(width_across, width_across * width_across, (lobe.kind & ACROSS_IS_SQUARED) != 0u);
+        let widths = vec2<f32>(lobe.roughness, across);
         let resolved = select(widths, max(widths, vec2<f32>(DELTA_ALPHA)), max(widths.x, widths.y) >= DELTA_ALPHA);
         return Facets(resolved.x, resolved.y, lobe.kind);
     }
-#endif
+    return isotropic_facets(lobe);
+}
+
+// Microfacets of a lobe that have one width.
+fn isotropic_facets(lobe: Lobe) -> Facets {
     return Facets(lobe.roughness, lobe.roughness, lobe.kind);
 }
 
-// Too narrow to be told from a smooth surface.
-fn facets_are_smooth(facets: Facets) -> bool {
-#if ANISOTROPY
-    return max(facets.alpha, facets.alpha_v) < DELTA_ALPHA;
-#else
-    return facets.alpha < DELTA_ALPHA;
-#endif
+// The width across the tangent, known to be the other one in kernels without anisotropy.
+fn alpha_across(facets: Facets) -> f32 {
+    return select(facets.alpha, facets.alpha_v, HAS_ANISOTROPY);
 }
 
-// The frame that they lie in.
+// The microfacets are too narrow to be told from a smooth surface.
+fn facets_are_smooth(facets: Facets) -> bool {
+    return max(facets.alpha, alpha_across(facets)) < DELTA_ALPHA;
+}
+
+// The frame of local directions.
 fn facet_frame(facets: Facets, surface: Surface) -> Frame {
 #if ANISOTROPY
     if (facets.flags & ANISOTROPIC) != 0u {
@@ -52,22 +59,15 @@ fn facet_frame(facets: Facets, surface: Surface) -> Frame {
 // D(m) (Walter et al. 2007). The sine comes from x and y, which keeps narrow lobes accurate.
 fn facet_distribution(facets: Facets, m: vec3<f32>) -> f32 {
     let alpha = facets.alpha;
-#if ANISOTROPY
-    let alpha_v = facets.alpha_v;
+    let alpha_v = alpha_across(facets);
     var slopes = (m.x * m.x + m.y * m.y) / (alpha * alpha);
-    if (facets.flags & ANISOTROPIC) != 0u {
+    if HAS_ANISOTROPY && (facets.flags & ANISOTROPIC) != 0u {
         slopes = m.x * m.x / (alpha * alpha) + m.y * m.y / (alpha_v * alpha_v);
     }
-#else
-    let alpha_v = alpha;
-    let slopes = (m.x * m.x + m.y * m.y) / (alpha * alpha);
-#endif
-#if BECKMANN
-    if (facets.flags & BECKMANN_FACETS) != 0u {
+    if HAS_BECKMANN && (facets.flags & BECKMANN_FACETS) != 0u {
         let cosine2 = max(m.z * m.z, 1.0e-20);
         return exp(-slopes / cosine2) / (PI * alpha * alpha_v * cosine2 * cosine2);
     }
-#endif
     let e = slopes + m.z * m.z;
     return 1.0 / (PI * alpha * alpha_v * e * e);
 }
@@ -77,38 +77,30 @@ fn facet_lambda(facets: Facets, w: vec3<f32>) -> f32 {
     let alpha = facets.alpha;
     let tan2 = (w.x * w.x + w.y * w.y) / max(w.z * w.z, 1.0e-20);
     var stretched = alpha * alpha * tan2;
-#if ANISOTROPY
-    if (facets.flags & ANISOTROPIC) != 0u {
+    if HAS_ANISOTROPY && (facets.flags & ANISOTROPIC) != 0u {
         let along = alpha * w.x;
         let across = facets.alpha_v * w.y;
         stretched = (along * along + across * across) / max(w.z * w.z, 1.0e-20);
     }
-#endif
-#if BECKMANN
-    if (facets.flags & BECKMANN_FACETS) != 0u {
+    if HAS_BECKMANN && (facets.flags & BECKMANN_FACETS) != 0u {
         return beckmann_lambda(stretched);
     }
-#endif
     return 0.5 * (sqrt(1.0 + stretched) - 1.0);
 }
 
 // G2: the share of the microfacets that are seen from both directions.
 fn facet_shadowing(facets: Facets, lambda_o: f32, lambda_i: f32) -> f32 {
-#if SEPARABLE_MASKING
-    if (facets.flags & SEPARABLE_MASKS) != 0u {
+    if HAS_SEPARABLE_MASKING && (facets.flags & SEPARABLE_MASKS) != 0u {
         return 1.0 / ((1.0 + lambda_o) * (1.0 + lambda_i));
     }
-#endif
     return 1.0 / (1.0 + lambda_o + lambda_i);
 }
 
-// G2 / G1(wo): that of those seen from wo.
+// G2 / G1(wo): the share of the microfacets seen from wo that are seen from wi too.
 fn facet_shadowing_of_visible(facets: Facets, lambda_o: f32, lambda_i: f32) -> f32 {
-#if SEPARABLE_MASKING
-    if (facets.flags & SEPARABLE_MASKS) != 0u {
+    if HAS_SEPARABLE_MASKING && (facets.flags & SEPARABLE_MASKS) != 0u {
         return 1.0 / (1.0 + lambda_i);
     }
-#endif
     return (1.0 + lambda_o) / (1.0 + lambda_o + lambda_i);
 }
 
@@ -121,26 +113,16 @@ fn facet_reflection(facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) ->
 
 // A microfacet normal visible from wo, by stretching both to a surface of width 1.
 fn sample_visible_normal(facets: Facets, wo: vec3<f32>, u: f32, v: f32) -> vec3<f32> {
-#if ANISOTROPY
-    let stretched = normalize(vec3<f32>(facets.alpha * wo.x, facets.alpha_v * wo.y, wo.z));
-#else
-    let stretched = normalize(vec3<f32>(facets.alpha * wo.xy, wo.z));
-#endif
-    let n = visible_normal_of_width_one(facets, stretched, u, v);
-#if ANISOTROPY
-    return normalize(vec3<f32>(facets.alpha * n.x, facets.alpha_v * n.y, max(1.0e-7, n.z)));
-#else
-    return normalize(vec3<f32>(facets.alpha * n.xy, max(1.0e-7, n.z)));
-#endif
+    let widths = vec2<f32>(facets.alpha, alpha_across(facets));
+    let n = visible_normal_of_width_one(facets, normalize(vec3<f32>(widths * wo.xy, wo.z)), u, v);
+    return normalize(vec3<f32>(widths * n.xy, max(1.0e-7, n.z)));
 }
 
-// For GGX by Heitz 2018.
+// A visible normal of microfacets of width 1; for GGX by Heitz 2018.
 fn visible_normal_of_width_one(facets: Facets, wo: vec3<f32>, u: f32, v: f32) -> vec3<f32> {
-#if BECKMANN
-    if (facets.flags & BECKMANN_FACETS) != 0u {
+    if HAS_BECKMANN && (facets.flags & BECKMANN_FACETS) != 0u {
         return visible_beckmann_normal(wo, u, v);
     }
-#endif
     let across2 = dot(wo.xy, wo.xy);
     var axis_x = vec3<f32>(1.0, 0.0, 0.0);
     if across2 > 0.0 {

@@ -24,7 +24,7 @@ fn sheen_lambda(alpha: f32, cosine: f32) -> f32 {
     return exp(2.0 * sheen_fit(0.5, share) - sheen_fit(max(1.0 - cosine, 0.0), share));
 }
 
-// f cosθi, of directions in the surface's frame.
+// f cosθi for directions in the surface's frame.
 fn sheen_value(sheen: Sheen, o: vec3<f32>, i: vec3<f32>) -> Spectrum {
     let alpha = sheen.roughness * sheen.roughness;
     let m = normalize(o + i);
@@ -34,12 +34,13 @@ fn sheen_value(sheen: Sheen, o: vec3<f32>, i: vec3<f32>) -> Spectrum {
     return sheen.color * (distribution / (4.0 * o.z * shadowing * most));
 }
 
-// More than 1 at grazing angles of narrow fibres, where the fit fails.
+// The share of light that the fibres reflect; more than 1 at grazing angles of narrow fibres, where the fit
+// fails.
 fn sheen_albedo(sheen: Sheen, cosine: f32) -> f32 {
     return tabulated_albedo(SHEEN_ALBEDO_WORD, cosine, sheen.roughness, sheen.roughness + SHEEN_KNEE);
 }
 
-// Share of light that the fibres take from what lies below.
+// The share of light that the fibres take from the layers below.
 fn sheen_taken(sheen: Sheen, cosine: f32) -> f32 {
     let strongest = max_component(sheen.color);
     if strongest <= 0.0 {

@@ -1,4 +1,4 @@
-// What the attributes of a primitive say of a point of it.
+// The attributes of a primitive at a point of it.
 #import core/layout.wgsl
 #import geometry/records.wgsl
 #import shading/texture/coordinates.wgsl
@@ -7,7 +7,7 @@
 #import geometry/motion.wgsl
 
 struct Attribute {
-    // As long as interpolation leaves it; 0 where there is none.
+    // Not normalised after interpolation; 0 if there is none.
     normal: vec3<f32>,
     uv: vec2<f32>,
 }
@@ -19,8 +19,8 @@ fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
     let a2 = words.w2;
     let a3 = words.w3;
     let w = 1.0 - weights.x - weights.y;
-#if MOTION
     var normals = array<vec3<f32>, 3>(a0.xyz, a1.xyz, a2.xyz);
+#if MOTION
     let moving = bitcast<u32>(a3.w);
     if moving != NONE {
         let motion = motion_at_path_time(moving);
@@ -28,38 +28,30 @@ fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
             normals[corner] = moved_unit_normal(motion, normals[corner]);
         }
     }
+#endif
     return Attribute(
         w * normals[0] + weights.x * normals[1] + weights.y * normals[2],
         w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
     );
-#else
-    return Attribute(
-        w * a0.xyz + weights.x * a1.xyz + weights.y * a2.xyz,
-        w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
-    );
-#endif
 }
 
-#if SECOND_UVS
 // Second texture coordinates of a triangle, which stand behind the first ones.
 fn second_uv(first: u32, weights: vec2<f32>) -> vec2<f32> {
     let words = attribute_words(first + 1u);
     let w = 1.0 - weights.x - weights.y;
     return w * vec2<f32>(words.w0.w, words.w1.w) + weights.x * vec2<f32>(words.w2.w, words.w3.x) + weights.y * words.w3.yz;
 }
-#endif
 
-// What textures are looked up by at a point of a primitive whose first texture coordinates there are `uv`; triangles may have second ones.
+// The coordinates for textures at a point of a primitive whose first coordinates there are `uv`; triangles
+// may have second ones.
 fn texture_coordinates(kind: u32, first: u32, uv: vec2<f32>, weights: vec2<f32>) -> TextureCoordinates {
-#if SECOND_UVS
-    if first != NONE && kind == KIND_TRIANGLE {
+    if HAS_SECOND_UVS && first != NONE && kind == KIND_TRIANGLE {
         return vec4<f32>(uv, second_uv(first, weights));
     }
-#endif
     return only_coordinates(uv);
 }
 
-// Of the linear map from texture coordinates at the corners to the edges.
+// The tangents by the linear map from texture coordinates at the corners to the edges.
 fn edge_tangents(first: u32, edge_u: vec3<f32>, edge_v: vec3<f32>) -> Tangents {
     let words = attribute_words(first);
     let uv0 = vec2<f32>(words.w0.w, words.w1.w);
@@ -70,8 +62,7 @@ fn edge_tangents(first: u32, edge_u: vec3<f32>, edge_v: vec3<f32>) -> Tangents {
     return Tangents((edge_u * dv.y - edge_v * du.y) * orientation, (edge_v * du.x - edge_u * dv.x) * orientation);
 }
 
-#if INSTANCES
-// The same of a primitive of an instance.
+// The attributes of a primitive of an instance.
 fn interpolate_in_instance(placement: Placement, first: u32, weights: vec2<f32>) -> Attribute {
     let words = attribute_words(first);
     let w = 1.0 - weights.x - weights.y;
@@ -81,10 +72,8 @@ fn interpolate_in_instance(placement: Placement, first: u32, weights: vec2<f32>)
         w * vec2<f32>(words.w0.w, words.w1.w) + weights.x * vec2<f32>(words.w2.w, words.w3.x) + weights.y * words.w3.yz
     );
 }
-#endif
 
-#if BUMP_MAPS
-// The area that the edges span in texture coordinates; of what spans none, 1.
+// The area that the edges span in texture coordinates; 1 if they span none.
 fn attribute_uv_area(first: u32) -> f32 {
     let words = attribute_words(first);
     let uv0 = vec2<f32>(words.w0.w, words.w1.w);
@@ -93,4 +82,3 @@ fn attribute_uv_area(first: u32) -> f32 {
     let area = abs(du.x * dv.y - du.y * dv.x);
     return select(area, 1.0, area == 0.0);
 }
-#endif

@@ -1,16 +1,8 @@
-// Texture coordinates at a point: the first ones, and where some texture lies by them, the second ones of meshes behind them.
+// Texture coordinates at a point: the first ones, and behind them the second ones, which meshes may have.
 
-#if SECOND_UVS
 alias TextureCoordinates = vec4<f32>;
 
-// Of what has one set.
+// The coordinates of a point that has one set: they serve as the second ones too.
 fn only_coordinates(uv: vec2<f32>) -> TextureCoordinates {
     return uv.xyxy;
 }
-#else
-alias TextureCoordinates = vec2<f32>;
-
-fn only_coordinates(uv: vec2<f32>) -> TextureCoordinates {
-    return uv;
-}
-#endif

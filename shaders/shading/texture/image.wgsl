@@ -5,11 +5,11 @@
 
 struct Image {
     flags: u32,
-    // Word where its texels begin.
+    // The first word of its texels.
     first: u32,
     // Width and height.
     size: vec2<i32>,
-    // Word where the values of its integers begin.
+    // The first word of the values that its integers stand for.
     first_value: u32,
 }
 
@@ -28,52 +28,48 @@ fn wrapped_texel(index: i32, size: i32, wrap: u32) -> i32 {
     }
 }
 
-#if TEXELS_IN_HALF_FLOATS
-// The numbers of which these are the bits, without the rounding to 0 that conversions may do.
+// The numbers that have these bits, without the rounding to 0 that conversions may do.
 fn half_floats(bits: vec3<u32>) -> vec3<f32> {
     let magnitude = bits & vec3<u32>(0x7fffu);
     let normal = bitcast<vec3<f32>>((magnitude << vec3<u32>(13u)) + vec3<u32>(0x38000000u));
     let small = vec3<f32>(magnitude) * 5.9604644775390625e-8;
     return select(normal, small, magnitude < vec3<u32>(0x400u));
 }
-#endif
 
-// A colour; or a grey, where one channel counts. Whatever the format, what it leads to is loaded at the end by the same code: drivers copy
-// what is called to wherever it is called.
+// A colour; or a grey, if one channel counts. The loads at the end are the same code for several formats:
+// drivers copy a function to each of its calls.
 fn texel(image: Image, x: i32, y: i32) -> Spectrum {
     let index = u32(y * image.size.x + x);
-    // Which of a texel's values: red, green, blue or alpha.
+    // The numbers of the texel's values that count: red, green, blue or alpha.
     var numbers = vec3<u32>(0u, 1u, 2u);
-#if TEXTURE_CHANNELS
     let channel = (image.flags >> CHANNEL_SHIFT) & 7u;
-    if channel != 0u {
+    if HAS_TEXTURE_CHANNELS && channel != 0u {
         numbers = vec3<u32>(channel - 1u);
     }
-#endif
-    // Where those stand, or what their integers stand for.
+    // The words of those values.
     var words = vec3<u32>(0u);
     switch (image.flags >> FORMAT_SHIFT) & 3u {
-#if TEXELS_IN_BYTES
         case TEXELS_OF_BYTES: {
-            let codes = (vec3<u32>(texel_word(image.first + index)) >> (8u * numbers)) & vec3<u32>(255u);
-            words = image.first_value + codes;
+            if HAS_TEXELS_IN_BYTES {
+                let codes = (vec3<u32>(texel_word(image.first + index)) >> (8u * numbers)) & vec3<u32>(255u);
+                words = image.first_value + codes;
+            }
         }
-#endif
-#if TEXELS_IN_SHORTS
         case TEXELS_OF_SHORTS: {
-            words = image.first_value + texel_halves(image, index, numbers);
+            if HAS_TEXELS_IN_SHORTS {
+                words = image.first_value + texel_halves(image, index, numbers);
+            }
         }
-#endif
-#if TEXELS_IN_HALF_FLOATS
         case TEXELS_OF_HALF_FLOATS: {
-            return half_floats(texel_halves(image, index, numbers));
+            if HAS_TEXELS_IN_HALF_FLOATS {
+                return half_floats(texel_halves(image, index, numbers));
+            }
         }
-#endif
-#if TEXELS_IN_FLOATS
         case TEXELS_OF_FLOATS: {
-            words = image.first + select(3u, 4u, (image.flags & FLOAT_ALPHA) != 0u) * index + numbers;
+            if HAS_TEXELS_IN_FLOATS {
+                words = image.first + select(3u, 4u, (image.flags & FLOAT_ALPHA) != 0u) * index + numbers;
+            }
         }
-#endif
         default: {}
     }
 #if TEXEL_CHUNKS
@@ -88,7 +84,7 @@ fn texel(image: Image, x: i32, y: i32) -> Spectrum {
 #endif
 }
 
-// Of a texel of two words, halves by their numbers.
+// Halves of the words of a texel that has two, by their numbers.
 fn texel_halves(image: Image, index: u32, numbers: vec3<u32>) -> vec3<u32> {
     let first = image.first + 2u * index;
     let both = select(vec3<u32>(texel_word(first)), vec3<u32>(texel_word(first + 1u)), numbers > vec3<u32>(1u));
@@ -103,52 +99,46 @@ fn image_color(image: Image, st: vec2<f32>) -> Spectrum {
     let is_nearest = (image.flags & TEXTURE_NEAREST) != 0u;
     let corner = floor(position - select(0.5, 0.0, is_nearest));
     let blend = position - 0.5 - corner;
-    // The code of a look-up stands there once for all: the nearest, or upper left, upper right, lower left and lower right. Drivers copy
-    // loops as well whose turns they can count, and this one's they cannot.
+    // One look-up in the code serves all texels: the nearest, or upper left, upper right, lower left and
+    // lower right. Drivers unroll a loop whose number of turns they know, and this one's they do not.
     let count = select(4, 1, is_nearest);
     var left = vec3<f32>(0.0);
     var upper = vec3<f32>(0.0);
     var row = vec3<f32>(0.0);
-#if TEXTURES_OF_TRIANGLES
-    let is_triangle = (image.flags & TEXTURE_TRIANGLES) != 0u;
+    let is_triangle = is_triangle_of_texels(image);
     var first = vec3<f32>(0.0);
-    // Of the corners: beyond the triangle the plane ends at their colours.
+    // The range of the corners' colours, at which the plane ends beyond the triangle.
     var low = vec3<f32>(INFINITY_DISTANCE);
     var high = vec3<f32>(-INFINITY_DISTANCE);
-#endif
     for (var number = 0; number < count; number++) {
         let x = wrapped_texel(i32(corner.x) + (number & 1), size.x, wrap.x);
         let y = wrapped_texel(i32(corner.y) + (number >> 1u), size.y, wrap.y);
         let color = texel(image, x, y);
         row = mix(left, color, blend.x);
-#if TEXTURES_OF_TRIANGLES
-        // Below, colours change as above: the plane through three corners.
+        // The lower edge changes as the upper one does: all lie in the plane through three corners.
         first = select(first, color, number == 0);
         low = select(low, min(low, color), number < 3);
         high = select(high, max(high, color), number < 3);
         row = select(row, left + upper - first, is_triangle && number == 3);
-#endif
         upper = select(upper, row, number == 1);
         left = color;
     }
     let between = mix(upper, row, blend.y);
-#if TEXTURES_OF_TRIANGLES
     return select(select(between, clamp(between, low, high), is_triangle), left, is_nearest);
-#else
-    return select(between, left, is_nearest);
-#endif
 }
 
-#if BUMP_MAPS
-// How the luminance changes there: of the bilinear interpolation between the four texels around, or of the plane of a triangle.
+// The image's texels are the corners of triangles.
+fn is_triangle_of_texels(image: Image) -> bool {
+    return HAS_TEXTURES_OF_TRIANGLES && (image.flags & TEXTURE_TRIANGLES) != 0u;
+}
+
+// The gradient of the luminance there: that of the bilinear interpolation between the four texels around, or
+// of the plane of a triangle.
 fn image_gradient(image: Image, st: vec2<f32>) -> vec2<f32> {
     let size = vec2<f32>(image.size);
     let position = vec2<f32>(st.x, 1.0 - st.y) * size;
     let corner = floor(position - 0.5);
-    var blend = position - 0.5 - corner;
-#if TEXTURES_OF_TRIANGLES
-    blend = select(blend, vec2<f32>(0.0), (image.flags & TEXTURE_TRIANGLES) != 0u);
-#endif
+    let blend = select(position - 0.5 - corner, vec2<f32>(0.0), is_triangle_of_texels(image));
     let wrap = (vec2<u32>(image.flags) >> vec2<u32>(WRAP_SHIFT, WRAP_V_SHIFT)) & vec2<u32>(3u);
     // Upper left, upper right, lower left and lower right.
     var heights = vec4<f32>(0.0);
@@ -161,4 +151,3 @@ fn image_gradient(image: Image, st: vec2<f32>) -> vec2<f32> {
     let down = heights.zw - heights.xy;
     return size * vec2<f32>(mix(across.x, across.y, blend.y), -mix(down.x, down.y, blend.x));
 }
-#endif

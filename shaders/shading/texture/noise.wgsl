@@ -1,5 +1,5 @@
-// Procedural textures over uv; the lattice's hash is integer arithmetic, the same on every device. src/texture has the same in
-// f64.
+// Procedural textures over uv; the lattice's hash is integer arithmetic, the same on every device.
+// src/texture has them in f64.
 #import core/sampler.wgsl
 
 fn lattice_hash(cell: vec2<i32>, seed: u32) -> u32 {
@@ -7,7 +7,6 @@ fn lattice_hash(cell: vec2<i32>, seed: u32) -> u32 {
     return mix_bits(mix_bits((c.x * GOLDEN) ^ seed) + c.y * 0x85ebca6bu);
 }
 
-#if PERLIN
 // One of eight unit gradients, dotted with the offset from its lattice point: ±x, ±y, and the four diagonals.
 fn gradient_dot(cell: vec2<i32>, seed: u32, offset: vec2<f32>) -> f32 {
     let direction = lattice_hash(cell, seed) >> 29u;
@@ -49,13 +48,13 @@ fn perlin_noise(position: vec2<f32>, octaves: u32, seed: u32) -> f32 {
     return 1.41421356 * sum / max(total, 1.0e-30);
 }
 
-#if BUMP_MAPS
 // One of eight unit gradients.
 fn lattice_gradient(cell: vec2<i32>, seed: u32) -> vec2<f32> {
     return vec2<f32>(gradient_dot(cell, seed, vec2<f32>(1.0, 0.0)), gradient_dot(cell, seed, vec2<f32>(0.0, 1.0)));
 }
 
-// How that noise changes with the position. Each octave adds as much as the first: it is half as high and twice as fine as the one before.
+// The gradient of that noise by the position. Each octave adds as much as the first: it is half as high and
+// twice as fine as the one before.
 fn perlin_gradient(position: vec2<f32>, octaves: u32, seed: u32) -> vec2<f32> {
     var frequency = 1.0;
     var amplitude = 1.0;
@@ -82,10 +81,7 @@ fn perlin_gradient(position: vec2<f32>, octaves: u32, seed: u32) -> vec2<f32> {
     }
     return 1.41421356 * sum / max(total, 1.0e-30);
 }
-#endif
-#endif
 
-#if WORLEY
 // A cell's feature point, from its corner.
 fn feature_point(h: u32) -> vec2<f32> {
     return vec2<f32>(f32(h >> 16u), f32(h & 0xffffu)) / 65536.0;
@@ -108,8 +104,7 @@ fn worley_noise(position: vec2<f32>, seed: u32) -> f32 {
     return sqrt(nearest2);
 }
 
-#if BUMP_MAPS
-// How that distance changes with the position: away from the nearest feature point.
+// The gradient of that distance by the position: away from the nearest feature point.
 fn worley_gradient(position: vec2<f32>, seed: u32) -> vec2<f32> {
     let corner = floor(position);
     let f = position - corner;
@@ -130,5 +125,3 @@ fn worley_gradient(position: vec2<f32>, seed: u32) -> vec2<f32> {
     }
     return -nearest / sqrt(max(nearest2, 1.0e-30));
 }
-#endif
-#endif

@@ -74,9 +74,10 @@ impl PackedScene {
             return Err(format!("encloses medium {} of {}", material.medium(), self.materials.media.len()));
         }
         let lobe = LobeKind::ALL.get(material.kind() as usize);
-        let [count, to_look_up] = lobe.map_or([0, 0], |lobe| lobe.further_counts(material.kind_and_form >> material::FORM_SHIFT));
+        let [to_look_up, table] = lobe.map_or([0, 0], |lobe| lobe.further_counts(material.kind_and_form >> material::FORM_SHIFT));
         let [first, looked_up] = [material.further & ((1 << material::FURTHER_SHIFT) - 1), material.looked_up()];
-        let has_all = looked_up as usize == to_look_up && is_within(first, count as u32, self.materials.further.len());
+        let has_all =
+            looked_up as usize == to_look_up && is_within(first, (to_look_up + table) as u32, self.materials.further.len());
         let has_none = material.further == 0 && !lobe.is_some_and(|lobe| lobe.needs_further());
         if !has_none && !has_all {
             return Err(format!("has further parameters from {first} on, of which {looked_up} are looked up"));

@@ -9,7 +9,7 @@ use crate::scene::MaterialKind;
 
 /// The lobes in the table of materials, and their contract handed on to each.
 macro_rules! lobes {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident)* })*) => {
+    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
         /// One of the lobes that materials scatter by.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum Lobe { $($($lobe(super::$file::$lobe),)*)* }

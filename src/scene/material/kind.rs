@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::blend_weight::BlendWeight;
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
+use super::parameters::{self, ParameterType, place};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
 use super::principled::Principled;
 use crate::scene::texture::ColorInput;
@@ -16,7 +17,9 @@ pub type MaterialId = usize;
 /// - the variant of [`MaterialKind`];
 /// - its type in scene files, which is also the name of its module in `load::file::material`;
 /// - the lobes that it scatters by, each with its variant of [`LobeKind`] and type in `reference::bsdf`, the name of its files there
-///   and in `shaders/shading/bsdf/`, the name of its number and of its switch in shaders, and its [`LobeSupport`].
+///   and in `shaders/shading/bsdf/`, the name of its number and of its switch in shaders, its [`LobeSupport`],
+///   and its [parameters](LobeKind::parameters) beyond the slots of [`LobeParameters`]: name,
+///   [`ParameterType`], and in WGSL the default of one that a lobe may go without.
 ///
 /// `material_table!(what)` calls `what!` with all rows. Dispatch and constants elsewhere are made from them; modules are declared where they stand.
 macro_rules! material_table {
@@ -28,13 +31,28 @@ macro_rules! material_table {
             Phong phong { Phong phong PHONG Hemisphere }
             Glass glass { Glass glass GLASS Delta ThinGlass thin_glass THIN_GLASS Delta }
             RoughGlass rough_glass {
-                RoughGlass rough_glass ROUGH_GLASS Sphere
+                RoughGlass rough_glass ROUGH_GLASS Sphere [width_across: Scalar = "lobe.roughness"]
                 PhongGlass phong_glass PHONG_GLASS Sphere
-                RoughThinGlass rough_thin_glass ROUGH_THIN_GLASS Sphere
+                RoughThinGlass rough_thin_glass ROUGH_THIN_GLASS Sphere [width_across: Scalar = "lobe.roughness"]
             }
-            Plastic plastic { Plastic plastic PLASTIC Hemisphere RoughPlastic rough_plastic ROUGH_PLASTIC Hemisphere }
-            Conductor conductor { Conductor conductor CONDUCTOR Hemisphere }
-            Principled principled { Principled principled PRINCIPLED Sphere }
+            Plastic plastic {
+                Plastic plastic PLASTIC Hemisphere [internal_reflectance: Scalar]
+                RoughPlastic rough_plastic ROUGH_PLASTIC Hemisphere [internal_reflectance: Scalar]
+            }
+            Conductor conductor {
+                Conductor conductor CONDUCTOR Hemisphere [
+                    width_across: Scalar = "lobe.roughness", specular_reflectance: Color = "WHITE"
+                ]
+            }
+            Principled principled {
+                Principled principled PRINCIPLED Sphere [
+                    metallic: Scalar, specular: Scalar, transmission: Scalar, coat: Scalar, coat_roughness: Scalar,
+                    anisotropy: Scalar, rotation: Vector,
+                    sheen_color: Color = "BLACK", sheen_roughness: Scalar = "0.0",
+                    coat_texel: Vector = "vec3<f32>(0.0)", coat_scale: SignedScalar = "0.0",
+                    direction_texel: Vector = "vec3<f32>(0.0)"
+                ]
+            }
             Emissive emissive {}
             Blend blend {}
             Pass pass { Null null NULL_SURFACES Delta }
@@ -95,18 +113,11 @@ pub struct LobeParameters {
     /// The width of a distribution of microfacets, or the exponent of a power of a cosine.
     pub roughness: Option<ColorInput>,
     pub ior: Option<f64>,
-    /// The further parameters of the lobe; none where the lobe's own defaults hold:
-    ///
-    /// - of a conductor, and of rough glass, thin or not, the width across the tangent, and a factor of what is reflected;
-    /// - of the principled lobe, metallic, specular, transmission, clearcoat, its roughness, anisotropy, and 1 plus the cosine and the sine of
-    ///   its rotation; where it has a form that needs more, the extinction of what it encloses, and the colour and the roughness of its sheen;
-    ///   where its coat has normals of its own, their texels, and their scale: how far it is above 0, and how far below; and where the direction of
-    ///   its anisotropy comes from a texture, the texels;
-    /// - of plastic, the share of light from within that the surface sends back;
-    /// - of rough plastic, the same, and then what the surface lets through, three angles an entry.
+    /// The first of the lobe's [further parameters](LobeKind::parameters); none where the defaults of all
+    /// hold.
     pub further: Vec<ColorInput>,
-    /// How many of those may come from textures, the first ones.
-    pub looked_up: usize,
+    /// The [transmittance of rough plastic's surface](PlasticInterface::transmittance_table).
+    pub table: Vec<f32>,
 }
 
 /// Bits of [`LobeParameters::form`]: the colours of a conductor are its complex index of refraction.
@@ -129,8 +140,6 @@ pub const TRANSMITS: u32 = 128;
 pub const COMPENSATED: u32 = 256;
 /// Fibres stand on the surface.
 pub const SHEEN: u32 = 512;
-/// The flag of a surface whose inside takes light.
-pub const ATTENUATES: u32 = 1024;
 /// The coat has a normal map of its own.
 pub const COAT_NORMAL_MAP: u32 = 2048;
 /// The direction in which microfacets are wider comes from a texture.
@@ -146,7 +155,6 @@ pub const FORMS: u32 = COMPLEX_FRESNEL
     | TRANSMITS
     | COMPENSATED
     | SHEEN
-    | ATTENUATES
     | COAT_NORMAL_MAP
     | DIRECTED;
 
@@ -156,39 +164,24 @@ const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
 impl LobeParameters {
     /// A lobe with one colour.
     fn new(lobe: LobeKind, color0: ColorInput) -> Self {
-        Self { lobe, form: 0, color0, color1: None, roughness: None, ior: None, further: Vec::new(), looked_up: 0 }
+        Self { lobe, form: 0, color0, color1: None, roughness: None, ior: None, further: Vec::new(), table: Vec::new() }
     }
 
-    /// The lobe with microfacets, and with the reflected colour multiplied by `factor`.
-    fn with_facets(mut self, facets: &Microfacets, factor: ColorInput) -> Self {
-        self.roughness = Some(facets.alpha);
-        self.form |= if facets.distribution == MicrofacetDistribution::Beckmann { BECKMANN } else { 0 }
+    /// The lobe with microfacets, but for their width across the tangent, which is a further parameter.
+    fn with_facets(self, facets: &Microfacets) -> Self {
+        let form = if facets.distribution == MicrofacetDistribution::Beckmann { BECKMANN } else { 0 }
             | if facets.masking == Masking::Separable { SEPARABLE_MASKING } else { 0 }
-            | if facets.alpha_v.is_some() { ANISOTROPIC } else { 0 };
-        if facets.alpha_v.is_some() || factor != ColorInput::grey(1.0) {
-            let across = facets.alpha_v.unwrap_or(facets.alpha);
-            self.form |= if across.is_squared() { SQUARED_ACROSS } else { 0 };
-            self.further = vec![across, factor];
-            self.looked_up = 2;
-        }
-        self
+            | if facets.alpha_v.is_some() { ANISOTROPIC } else { 0 }
+            | if facets.alpha_v.is_some_and(|across| across.is_squared()) { SQUARED_ACROSS } else { 0 };
+        Self { roughness: Some(facets.alpha), form: self.form | form, ..self }
     }
 
     /// All parameters that may come from textures.
-    pub fn inputs(&self) -> impl Iterator<Item = ColorInput> {
-        [Some(self.color0), self.color1, self.roughness].into_iter().flatten().chain(self.further.iter().copied())
+    pub fn inputs(&self) -> impl Iterator<Item = (ParameterType, ColorInput)> {
+        let colors = [Some(self.color0), self.color1].into_iter().flatten().map(|color| (ParameterType::Color, color));
+        let further = self.lobe.parameters().iter().map(|parameter| parameter.parameter_type).zip(self.further.iter().copied());
+        colors.chain(self.roughness.map(|roughness| (ParameterType::Scalar, roughness))).chain(further)
     }
-}
-
-/// The share of light from within that a plastic's surface sends back, and what a rough one lets through.
-fn interface_parameters(interface: &PlasticInterface) -> Vec<ColorInput> {
-    let mut further = vec![ColorInput::grey(interface.internal_reflectance())];
-    if let Some(table) = interface.transmittance_table() {
-        let at = |node: usize| f64::from(table[node.min(TRANSMITTANCE_NODES - 1)]);
-        let entry = |first: usize| ColorInput::Constant(DVec3::new(at(first), at(first + 1), at(first + 2)));
-        further.extend((0..TRANSMITTANCE_ENTRIES).map(|index| entry(3 * index)));
-    }
-    further
 }
 
 impl MaterialKind {
@@ -220,23 +213,36 @@ impl MaterialKind {
                 };
                 let glass =
                     LobeParameters { color1: Some(transmittance), ior: Some(ior), ..LobeParameters::new(lobe, reflectance) };
-                match lobe {
-                    LobeKind::Glass | LobeKind::ThinGlass => LobeParameters { roughness: Some(facets.alpha), ..glass },
-                    _ => glass.with_facets(&facets, ColorInput::grey(1.0)),
+                if matches!(lobe, LobeKind::Glass | LobeKind::ThinGlass) {
+                    return Some(LobeParameters { roughness: Some(facets.alpha), ..glass });
                 }
+                let further = facets.alpha_v.map(|width_across| match lobe {
+                    LobeKind::RoughThinGlass => parameters::RoughThinGlass { width_across }.list(),
+                    _ => parameters::RoughGlass { width_across }.list(),
+                });
+                LobeParameters { further: further.unwrap_or_default(), ..glass.with_facets(&facets) }
             }
             Self::Plastic { ref interface, reflectance, specular_reflectance, nonlinear } => {
-                let lobe = if interface.is_rough() { LobeKind::RoughPlastic } else { LobeKind::Plastic };
+                let internal_reflectance = ColorInput::grey(interface.internal_reflectance());
+                let (lobe, further) = match interface.is_rough() {
+                    true => (LobeKind::RoughPlastic, parameters::RoughPlastic { internal_reflectance }.list()),
+                    false => (LobeKind::Plastic, parameters::Plastic { internal_reflectance }.list()),
+                };
                 let facets = Microfacets {
                     alpha: ColorInput::grey(interface.alpha),
                     alpha_v: None,
                     distribution: interface.distribution,
                     masking: interface.masking,
                 };
-                let mut plastic = LobeParameters::new(lobe, reflectance).with_facets(&facets, ColorInput::grey(1.0));
-                plastic.form |= if nonlinear { NONLINEAR } else { 0 };
-                let further = interface_parameters(interface);
-                LobeParameters { color1: Some(specular_reflectance), ior: Some(interface.ior), further, looked_up: 1, ..plastic }
+                LobeParameters {
+                    form: if nonlinear { NONLINEAR } else { 0 },
+                    color1: Some(specular_reflectance),
+                    ior: Some(interface.ior),
+                    further,
+                    table: interface.transmittance_table().map_or_else(Vec::new, |table| table.to_vec()),
+                    ..LobeParameters::new(lobe, reflectance)
+                }
+                .with_facets(&facets)
             }
             Self::Conductor { ref fresnel, facets, specular_reflectance } => {
                 let (form, color0, color1) = match *fresnel {
@@ -245,8 +251,11 @@ impl MaterialKind {
                     }
                     ConductorFresnel::Reflectance(reflectance) => (0, reflectance, None),
                 };
-                LobeParameters { form, color1, ..LobeParameters::new(LobeKind::Conductor, color0) }
-                    .with_facets(&facets, specular_reflectance)
+                let has_defaults = facets.alpha_v.is_none() && specular_reflectance == ColorInput::grey(1.0);
+                let width_across = facets.alpha_v.unwrap_or(facets.alpha);
+                let further = parameters::Conductor { width_across, specular_reflectance }.list();
+                let further = if has_defaults { Vec::new() } else { further };
+                LobeParameters { form, color1, further, ..LobeParameters::new(LobeKind::Conductor, color0) }.with_facets(&facets)
             }
             Self::Principled(ref principled) => principled.lobe(),
             Self::Pass => LobeParameters::new(LobeKind::Null, ColorInput::grey(0.0)),
@@ -255,23 +264,18 @@ impl MaterialKind {
     }
 }
 
-/// The place of the extinction inside the surface among the further parameters of the principled lobe.
-pub const EXTINCTION_PARAMETER: usize = 7;
+/// The place of the texels of its coat's normals.
+pub const COAT_TEXEL_PARAMETER: usize = place!(Principled.coat_texel);
 
-/// The place of the texels of its coat's normals; their scale is the next.
-pub const COAT_NORMAL_PARAMETER: usize = EXTINCTION_PARAMETER + 3;
-
-/// The place of the texels of its anisotropy's direction.
-pub const DIRECTION_PARAMETER: usize = COAT_NORMAL_PARAMETER + 2;
-
-/// How many further parameters the principled lobe has.
+/// The number of further parameters of the principled lobe in a form.
 fn further_of_principled(form: u32) -> usize {
-    match form {
-        form if form & DIRECTED != 0 => DIRECTION_PARAMETER + 1,
-        form if form & COAT_NORMAL_MAP != 0 => DIRECTION_PARAMETER,
-        form if form & (SHEEN | ATTENUATES) != 0 => COAT_NORMAL_PARAMETER,
-        _ => EXTINCTION_PARAMETER,
-    }
+    let last = match form {
+        form if form & DIRECTED != 0 => place!(Principled.direction_texel),
+        form if form & COAT_NORMAL_MAP != 0 => place!(Principled.coat_scale),
+        form if form & SHEEN != 0 => place!(Principled.sheen_roughness),
+        _ => place!(Principled.rotation),
+    };
+    last + 1
 }
 
 impl Principled {
@@ -285,36 +289,29 @@ impl Principled {
             | if self.transmission == zero { 0 } else { TRANSMITS }
             | if self.energy_compensation { COMPENSATED } else { 0 }
             | if self.sheen_color == zero { 0 } else { SHEEN }
-            | if self.attenuation.is_some() { ATTENUATES } else { 0 }
             | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 }
             | if direction.is_some() { DIRECTED } else { 0 };
-        let extinction = self.attenuation.map_or(DVec3::ZERO, |attenuation| attenuation.extinction());
-        let [coat_normal, scale] = self.coat_normal_map.map_or([zero; 2], |map| {
-            let scale = DVec3::new(map.scale.max(0.0), (-map.scale).max(0.0), 0.0);
-            [ColorInput::Texture(map.texture), ColorInput::Constant(scale)]
-        });
-        let mut further = vec![
-            self.metallic,
-            self.specular,
-            self.transmission,
-            self.clearcoat,
-            self.clearcoat_roughness,
-            self.anisotropy.unwrap_or(zero),
-            ColorInput::Constant(DVec3::new(1.0 + turned.cos(), 1.0 + turned.sin(), 0.0)),
-            ColorInput::Constant(extinction),
-            self.sheen_color,
-            self.sheen_roughness,
-            coat_normal,
-            scale,
-            direction.map_or(zero, ColorInput::Texture),
-        ];
+        let mut further = parameters::Principled {
+            metallic: self.metallic,
+            specular: self.specular,
+            transmission: self.transmission,
+            coat: self.clearcoat,
+            coat_roughness: self.clearcoat_roughness,
+            anisotropy: self.anisotropy.unwrap_or(zero),
+            rotation: ColorInput::Constant(DVec3::new(turned.cos(), turned.sin(), 0.0)),
+            sheen_color: self.sheen_color,
+            sheen_roughness: self.sheen_roughness,
+            coat_texel: self.coat_normal_map.map_or(zero, |map| ColorInput::Texture(map.texture)),
+            coat_scale: self.coat_normal_map.map_or(zero, |map| ColorInput::grey(map.scale)),
+            direction_texel: direction.map_or(zero, ColorInput::Texture),
+        }
+        .list();
         further.truncate(further_of_principled(form));
         LobeParameters {
             form,
             color1: Some(self.specular_color),
             roughness: Some(self.roughness),
             ior: Some(self.ior),
-            looked_up: further.len(),
             further,
             ..LobeParameters::new(LobeKind::Principled, self.base_color)
         }
@@ -336,27 +333,26 @@ pub enum LobeSupport {
 }
 
 impl LobeKind {
-    /// How many [further parameters](LobeParameters::further) the lobe has in this [form](LobeParameters::form) where it has some, and how many
-    /// of them are looked up.
+    /// The number of [further parameters](LobeParameters::further) of a lobe in this
+    /// [form](LobeParameters::form) where it has some, and of the entries that its
+    /// [table](LobeParameters::table) takes behind them.
     pub(crate) fn further_counts(self, form: u32) -> [usize; 2] {
         match self {
-            Self::Conductor | Self::RoughGlass | Self::RoughThinGlass => [2, 2],
-            Self::Plastic => [1, 1],
-            Self::Principled => [further_of_principled(form); 2],
-            Self::RoughPlastic => [1 + TRANSMITTANCE_ENTRIES, 1],
-            _ => [0, 0],
+            Self::Principled => [further_of_principled(form), 0],
+            Self::RoughPlastic => [self.parameters().len(), TRANSMITTANCE_ENTRIES],
+            _ => [self.parameters().len(), 0],
         }
     }
 
     /// The lobe cannot do without them.
     pub(crate) fn needs_further(self) -> bool {
-        matches!(self, Self::Plastic | Self::RoughPlastic | Self::Principled)
+        self.parameters().iter().any(|parameter| parameter.default.is_none())
     }
 }
 
 /// The columns of the table of materials about lobes and names.
 macro_rules! kinds {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident)* })*) => {
+    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
         /// The ways to scatter light that materials are made of.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u32)]

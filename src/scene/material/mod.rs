@@ -4,6 +4,7 @@ mod albedo;
 mod blend_weight;
 mod kind;
 mod microfacets;
+mod parameters;
 mod plastic;
 pub mod principled;
 
@@ -13,11 +14,12 @@ pub use albedo::{
 pub use blend_weight::BlendWeight;
 pub(crate) use kind::material_table;
 pub use kind::{
-    ANISOTROPIC, ATTENUATES, BECKMANN, COAT_NORMAL_MAP, COAT_NORMAL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
-    DIRECTED, DIRECTION_PARAMETER, EXTINCTION_PARAMETER, FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind,
-    NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
+    ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel, DIRECTED,
+    FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND,
+    SQUARED_ACROSS, THIN_WALL, TRANSMITS,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
+pub use parameters::{Parameter, ParameterType};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
 pub use principled::{Attenuation, CoatNormalMap, Principled};
 
@@ -84,7 +86,7 @@ impl Material {
     /// The material itself, not those it blends, looks up a texture.
     pub fn uses_texture(&self) -> bool {
         let weight = matches!(&self.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());
-        let of_lobe = self.kind.lobe().is_some_and(|lobe| lobe.inputs().any(|input| input.is_texture()));
+        let of_lobe = self.kind.lobe().is_some_and(|lobe| lobe.inputs().any(|(_, input)| input.is_texture()));
         let of_emission = self.emission.is_some_and(|emission| emission.radiance.is_texture());
         weight || of_lobe || of_emission || self.normal_map.is_some()
     }
