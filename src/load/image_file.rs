@@ -16,7 +16,7 @@ use super::memory;
 use crate::input::AnyFile;
 use crate::math::srgb_to_linear;
 use crate::picture_file::{Hints, PictureFile};
-use crate::scene::{Channel, ColorSpace, ImageData, Texels};
+use crate::scene::{Channel, ColorSpace, ImageData, ImageSource, Texels};
 
 /// Most texels on a side.
 const LARGEST_SIDE: u32 = 16_384;
@@ -61,6 +61,12 @@ impl PictureSource {
             Self::File(path) => path,
             Self::Embedded(file) => Path::new(&file.name),
         }
+    }
+
+    /// What a written scene says of the picture.
+    pub fn to_source(&self, color_space: Option<ColorSpace>) -> ImageSource {
+        let embedded = if let Self::Embedded(file) = self { Some(file.bytes.clone()) } else { None };
+        ImageSource { path: self.name().to_owned(), embedded, color_space, scale: 1.0 }
     }
 }
 

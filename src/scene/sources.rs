@@ -12,6 +12,8 @@ use super::shape::Mesh;
 pub struct Sources {
     images: HashMap<usize, (Weak<ImageData>, ImageSource)>,
     meshes: HashMap<usize, (Weak<Mesh>, MeshSource)>,
+    /// Pictures that cannot be read, by the names of the textures that show a colour in their place.
+    unreadable: HashMap<String, ImageSource>,
 }
 
 /// How a picture was read.
@@ -43,6 +45,10 @@ impl Sources {
         self.images.insert(address(image), (Arc::downgrade(image), source));
     }
 
+    pub fn add_unreadable(&mut self, texture: &str, source: ImageSource) {
+        self.unreadable.insert(texture.to_owned(), source);
+    }
+
     pub fn add_mesh(&mut self, mesh: &Arc<Mesh>, source: MeshSource) {
         self.meshes.insert(address(mesh), (Arc::downgrade(mesh), source));
     }
@@ -50,6 +56,11 @@ impl Sources {
     /// The file of a picture.
     pub fn image(&self, image: &Arc<ImageData>) -> Option<&ImageSource> {
         self.images.get(&address(image)).map(|(_, source)| source)
+    }
+
+    /// The picture in whose place a texture shows a colour.
+    pub fn unreadable(&self, texture: &str) -> Option<&ImageSource> {
+        self.unreadable.get(texture)
     }
 
     /// The file of a mesh.

@@ -69,7 +69,7 @@ pub fn as_scene_file(scene: &Scene, path: &Path) -> Result<WrittenScene, OutputE
         let what = "a frame of keyframes cannot be written; the scene that has them can".to_owned();
         return Err(OutputError::Encode { path: path.to_owned(), what });
     }
-    let (text, files) = scene_text(scene, path);
+    let (text, files) = scene_text(scene, path, true);
     Ok(WrittenScene { text, files: files.into_files(), report: scene.import_report.clone() })
 }
 

@@ -8,8 +8,8 @@ use crate::load::file::writer::{Names, SideFiles, Writer, line, text as quoted};
 use crate::load::file::{FORMAT_VERSION, write_light};
 use crate::scene::Scene;
 
-/// The text of the scene file that would lie at `path`.
-pub fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
+/// The text of the scene file that would lie at `path`. Pictures that cannot be read are named, unless colours are to be written in their place.
+pub fn scene_text(scene: &Scene, path: &Path, names_unreadable: bool) -> (String, SideFiles) {
     let needed = Needed::of(scene);
     let animation = &scene.animation;
     let mut writer = Writer {
@@ -19,6 +19,7 @@ pub fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
         groups: Names::unique(scene.groups.iter().map(|group| group.name.as_str()), "group"),
         nodes: Names::unique(animation.nodes.iter().map(|node| node.name.as_str()), "node"),
         files: SideFiles::beside(path),
+        names_unreadable,
     };
     let mut text = line("version", &FORMAT_VERSION.to_string()) + "\n" + &settings::settings(scene);
     // The camera's table is the last.

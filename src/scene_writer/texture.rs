@@ -9,11 +9,19 @@ pub fn texture(id: TextureId, writer: &mut Writer<'_>) -> String {
     let texture = &scene.textures[id];
     match &texture.kind {
         TextureKind::Image(image) => out += &image_texture(image, writer),
-        TextureKind::Checker { a, b, scale } => {
-            out += &line("type", &text("checker"));
-            out += &(line("a", &colour(*a)) + &line("b", &colour(*b)));
-            out += &pair("scale", *scale, 1.0);
-        }
+        TextureKind::Checker { a, b, scale } => match scene.sources.unreadable(&texture.name) {
+            Some(source) if writer.names_unreadable => {
+                let file = writer.file(source);
+                out += &(line("type", &text("image")) + &line("file", &file) + &line("fallback", &colour(*a)));
+                let space = source.color_space.map(space_name);
+                out += &space.map_or_else(String::new, |space| line("color_space", &text(space)));
+            }
+            _ => {
+                out += &line("type", &text("checker"));
+                out += &(line("a", &colour(*a)) + &line("b", &colour(*b)));
+                out += &pair("scale", *scale, 1.0);
+            }
+        },
         TextureKind::Perlin { scale, octaves, a, b, seed } => {
             out += &line("type", &text("perlin"));
             out += &(line("a", &colour(*a)) + &line("b", &colour(*b)) + &line("scale", &number(*scale)));
@@ -39,10 +47,7 @@ pub fn texture(id: TextureId, writer: &mut Writer<'_>) -> String {
 
 fn image_texture(texture: &ImageTexture, writer: &mut Writer<'_>) -> String {
     let (file, space, _) = writer.image(&texture.image);
-    let space = space.map(|space| match space {
-        ColorSpace::Srgb => "srgb",
-        ColorSpace::Linear => "linear",
-    });
+    let space = space.map(space_name);
     let name = |wrap: TextureWrap| match wrap {
         TextureWrap::Repeat => "repeat",
         TextureWrap::Clamp => "clamp",
@@ -59,6 +64,13 @@ fn image_texture(texture: &ImageTexture, writer: &mut Writer<'_>) -> String {
     let names = [("color_space", space), ("wrap", wrap), ("wrap_v", wrap_v), ("filter", filter)];
     let written = names.into_iter().filter_map(|(key, name)| Some(line(key, &text(name?))));
     line("type", &text("image")) + &line("file", &file) + &written.collect::<String>() + &pair("scale", texture.scale, 1.0)
+}
+
+fn space_name(space: ColorSpace) -> &'static str {
+    match space {
+        ColorSpace::Srgb => "srgb",
+        ColorSpace::Linear => "linear",
+    }
 }
 
 /// Nothing where both are the default.

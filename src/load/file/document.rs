@@ -8,9 +8,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::{self, Mistake, Node};
-use super::syntax::FORMAT_VERSION;
 use crate::load::error::{MOST_ERRORS, SceneError};
 use crate::load::place::Place;
+
+/// The version of the scene format that is read and written.
+pub const FORMAT_VERSION: u32 = 1;
 
 /// A scene file's text.
 #[derive(Clone)]

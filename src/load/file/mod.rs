@@ -25,6 +25,7 @@ pub(super) mod syntax;
 pub(super) mod value;
 pub(crate) mod writer;
 
+pub(crate) use document::FORMAT_VERSION;
 pub(super) use document::{Document, stem};
 #[cfg(test)]
 pub use light::delta_examples as delta_light_examples;
@@ -38,4 +39,3 @@ pub use schema::{json_schema, make_json_schema};
 pub use shape::examples as shape_examples;
 pub(crate) use shape::write_geometry;
 pub(super) use suggestion::{did_you_mean, did_you_mean_name};
-pub(crate) use syntax::FORMAT_VERSION;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer};
 
 /// The name of a `[[texture]]` that another entry refers to.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
-#[schemars(inline)]
+#[serde(transparent)]
 pub struct TextureName(pub String);
 
 impl AsRef<str> for TextureName {

@@ -6,8 +6,11 @@ use crate::scene::Mesh;
 fn read_bytes(bytes: &[u8]) -> Result<ModelFile, String> {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("a.obj"), bytes).expect("it is written");
+    let without_folder = |message: String| message.replace(&format!("{}/", folder.path().display()), "");
     let file = load(&Files::default(), &folder.path().join("a.obj"), true);
-    file.map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
+    let mut file = file.map_err(|error| without_folder(error.to_string()))?;
+    file.warnings = file.warnings.into_iter().map(without_folder).collect();
+    Ok(file)
 }
 
 /// All faces as one mesh, and what was mended.

@@ -26,7 +26,7 @@ use crate::scene::{ImportReport, Scene};
 /// # Errors
 /// None that is known: what cannot be said there is in the report.
 pub fn as_mitsuba(scene: &Scene, name: &str, target: &Path) -> Result<WrittenScene, SceneError> {
-    let (text, files) = scene_text(scene, target);
+    let (text, files) = scene_text(scene, target, false);
     let tables: Table = text.parse().map_err(|error: toml::de::Error| SceneError::in_file(name, error.message().to_owned()))?;
     let mut writer =
         Writer { name, scene: &tables, original: scene, files, xml: Xml::default(), report: ImportReport::default() };

@@ -18,7 +18,7 @@ use crate::load::image_file::{EmbeddedFile, PictureSource};
 use crate::picture_file::Envelope;
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{
-    ColorSpace, ImageData, ImageSource, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
+    ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
 
 impl Resolver<'_> {
@@ -68,7 +68,7 @@ impl Resolver<'_> {
         Ok(match entry {
             TextureEntry::Image(image) => match (self.image_texture(image), &image.fallback) {
                 (Ok(texture), _) => TextureKind::Image(texture),
-                (Err(error), Some(fallback)) => self.fallback(error, fallback.0)?,
+                (Err(error), Some(fallback)) => self.fallback(error, image, fallback.0)?,
                 (Err(error), None) => return Err(error),
             },
             TextureEntry::Checker(checker) => {
@@ -152,10 +152,12 @@ impl Resolver<'_> {
     }
 
     /// A colour in the place of a picture that cannot be read.
-    fn fallback(&mut self, error: SceneError, colour: DVec3) -> Result<TextureKind, SceneError> {
+    fn fallback(&mut self, error: SceneError, written: &ImageEntry, colour: DVec3) -> Result<TextureKind, SceneError> {
         if self.strict {
             return Err(error.with_help("without --strict, its `fallback` stands for it"));
         }
+        let source = self.picture_source(&written.file.value).to_source(written.color_space.map(Into::into));
+        self.scene.sources.add_unreadable(&written.name.value, source);
         let [r, g, b] = colour.to_array();
         self.scene.warnings.push(format!("{error}; the colour [{r}, {g}, {b}] stands for it"));
         Ok(TextureKind::Checker { a: colour, b: colour, scale: [1.0; 2] })
@@ -198,12 +200,7 @@ impl Resolver<'_> {
         };
         // A written scene names files that everyone reads alike; pixels of others are written anew.
         if cached.is_plain {
-            let (path, embedded) = match file {
-                PictureSource::File(path) => (path.clone(), None),
-                PictureSource::Embedded(file) => (file.name.clone().into(), Some(file.bytes.clone())),
-            };
-            let source = ImageSource { path, embedded, color_space: space, scale: 1.0 };
-            self.scene.sources.add_image(&cached.image, source);
+            self.scene.sources.add_image(&cached.image, file.to_source(space));
         }
         if let Some(change) = cached.change.take() {
             self.scene.warnings.push(format!("{file}: {change}"));

@@ -16,6 +16,7 @@ pub use output::OutputTable;
 pub use render::RenderTable;
 pub use texture::{CheckerEntry, ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
+use super::document::FORMAT_VERSION;
 use super::import::ImportEntry;
 use super::instance::{GroupEntry, InstanceEntry};
 use super::keyframes::{AnimationTable, CameraKeyEntry, InterpolationName};
@@ -25,9 +26,6 @@ use super::node::NodeEntry;
 use super::shape::ShapeEntry;
 use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 
-/// The version of the scene format that is read and written.
-pub const FORMAT_VERSION: u32 = 1;
-
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
@@ -35,7 +33,6 @@ pub const FORMAT_VERSION: u32 = 1;
 #[schemars(extend("required" = [], "anyOf" = [{ "required": ["camera"] }, { "required": ["import"] }]))]
 pub struct SceneFile {
     /// Version of the scene format: 1, also when left out. A file of a newer version is refused.
-    #[serde(default)]
     #[schemars(extend("minimum" = 1, "maximum" = FORMAT_VERSION))]
     #[allow(dead_code, reason = "`Document` looks at it before it reads the rest")]
     pub version: Option<NonZeroU32>,
@@ -45,8 +42,7 @@ pub struct SceneFile {
     pub render: RenderTable,
     #[serde(default)]
     pub output: OutputTable,
-    /// It may come from an imported file.
-    #[serde(default)]
+    /// Left out where an imported file brings one.
     pub camera: Option<CameraTable>,
     #[serde(default)]
     pub animation: Option<AnimationTable>,

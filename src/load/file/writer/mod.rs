@@ -27,6 +27,8 @@ pub struct Writer<'s> {
     pub groups: Names,
     pub nodes: Names,
     pub files: SideFiles,
+    /// Pictures that cannot be read are named, with the colours that stand for them.
+    pub names_unreadable: bool,
 }
 
 impl Writer<'_> {
@@ -49,6 +51,13 @@ impl Writer<'_> {
         }
     }
 
+    /// A picture's file on disk, or one beside the scene file of what stands within another file.
+    pub fn file(&mut self, ImageSource { path, embedded, .. }: &ImageSource) -> String {
+        let Some(content) = embedded else { return self.files.name_of(path) };
+        let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+        self.files.add_picture(content.as_ptr() as usize, &ending, || content.to_vec())
+    }
+
     /// The line that names a shape's material.
     pub fn material_of(&self, shape: &Shape) -> String {
         line("material", &self.materials.quoted(shape.material))
@@ -57,14 +66,9 @@ impl Writer<'_> {
     /// The file that a picture came from, or else one beside the scene file, once for all that show the picture; the colour space that it is read in, and the factor of its values.
     pub fn image(&mut self, image: &Arc<ImageData>) -> (String, Option<ColorSpace>, f64) {
         let scene = self.scene;
-        match scene.sources.image(image) {
-            Some(ImageSource { embedded: Some(content), path, color_space, scale }) => {
-                let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-                let name = self.files.add_picture(content.as_ptr() as usize, &ending, || content.to_vec());
-                (name, *color_space, *scale)
-            }
-            Some(source) if is_on_disk(&source.path) => (self.files.name_of(&source.path), source.color_space, source.scale),
-            _ => {
+        match scene.sources.image(image).filter(|source| source.embedded.is_some() || is_on_disk(&source.path)) {
+            Some(source) => (self.file(source), source.color_space, source.scale),
+            None => {
                 let (ending, space) = picture_format(image);
                 let name = self.files.add_picture(Arc::as_ptr(image) as usize, ending, || picture(image));
                 (name, Some(space), 1.0)

@@ -60,7 +60,7 @@ impl SideFiles {
 
     /// How the scene file names a file that is there, in quotes: relative to its own folder.
     pub fn name_of(&self, path: &Path) -> String {
-        let absolute = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let absolute = fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.to_owned());
         text(&relative(&absolute, &self.folder).to_string_lossy())
     }
 
