@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_blend_has_the_medium_of_its_absorbing_part() {
-        let blend = "[[material]]\nname = 'mixed'\ntype = 'blend'\nmaterials = ['glass', 'amber']\nweight = 0.5\n";
+        let blend = "[[material]]\nname = 'mixed'\ntype = 'blend'\nmaterials = ['glass', 'amber']\nweight = { type = 'constant', value = 0.5 }\n";
         let (scene, media) = media(&format!("{AMBER}{GLASS}{blend}"));
         let number =
             |name: &str| media.behind(scene.materials.iter().position(|material| material.name == name).expect("it is there"));

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use super::fold::{Line, folded};
+use super::fold::{Line, SWITCH_PREFIX, folded};
 use super::switches;
 
 /// Compile-time choices: which `#if`s hold, and constants that are declared before the first line.
@@ -98,9 +98,6 @@ pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader
     }
     Ok(composer.finish())
 }
-
-/// The prefix of the switches' names where code reads them as constants.
-pub(super) const SWITCH_PREFIX: &str = "HAS_";
 
 /// The switches that a line of code reads as constants.
 fn switches_read(line: &str) -> impl Iterator<Item = &str> {

@@ -4,7 +4,8 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use super::compose::SWITCH_PREFIX;
+/// The beginning of a switch's name where code reads it as a constant.
+pub const SWITCH_PREFIX: &str = "HAS_";
 
 /// A line and its number in its file.
 pub type Line<'a> = (u32, Cow<'a, str>);

@@ -7,21 +7,23 @@ mod microfacets;
 mod parameters;
 mod plastic;
 pub mod principled;
+mod table;
 
 pub use albedo::{
     ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, FACET_KNEE, SHEEN_KNEE, SMALLEST_SHEEN_ROUGHNESS, sheen_distribution, sheen_lambda,
 };
 pub use blend_weight::BlendWeight;
-pub(crate) use kind::material_table;
 pub use kind::{
     ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel, DIRECTED,
-    FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND,
-    SQUARED_ACROSS, THIN_WALL, TRANSMITS,
+    FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL,
+    TRANSMITS,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use parameters::{Parameter, ParameterType};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
 pub use principled::{Attenuation, CoatNormalMap, Principled};
+pub(crate) use table::material_table;
+pub use table::{LobeKind, LobeSupport, MaterialId};
 
 use super::texture::{ColorInput, TextureId};
 

@@ -4,7 +4,7 @@
 //! A lobe that has some has a struct of them here, by which [`super::kind`] fills them in, and one in
 //! shaders, which `plan::lobes` writes.
 
-use super::kind::{LobeKind, material_table};
+use super::table::{LobeKind, material_table};
 use crate::scene::texture::ColorInput;
 
 /// The numbers that a parameter consists of.
