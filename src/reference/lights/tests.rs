@@ -9,9 +9,9 @@ use crate::load::file::delta_light_examples;
 use crate::math::luminance;
 use crate::reference::warp;
 use crate::scene::{
-    ColorInput, Cylinder, DirectionalLight, Disk, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture,
-    Material, MaterialKind, Mesh, PointLight, Rectangle, Shape, Sky, Sphere, SpotLight, Texture, TextureFilter, TextureKind,
-    TextureWrap, Transform,
+    ColorInput, Cylinder, DirectionalLight, Disk, Emission, Environment, EnvironmentRadiance, Estimator, Geometry, ImageData,
+    ImageTexture, LightStrength, Material, MaterialKind, Mesh, PointLight, Rectangle, Shape, Sky, Sphere, SpotLight, Texture,
+    TextureFilter, TextureKind, TextureWrap, Transform,
 };
 use crate::statistics::random::SplitMix64;
 use crate::statistics::{SphereBins, chi_squared_test, density_by_differences, test_directional_sampler};
