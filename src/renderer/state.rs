@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::film::{count_in, count_word};
 
 /// Most samples per pixel of one sweep. A sweep that one device began, another ends.
-pub const MOST_SAMPLES_PER_SWEEP: u32 = crate::plan::MAX_SAMPLES_PER_PASS;
+pub const MOST_SAMPLES_PER_SWEEP: u32 = 64;
 
 /// A batch that is not over. Rows above `rows` are finished and were handed over; rows below have no samples.
 #[derive(Debug, Clone, PartialEq)]
