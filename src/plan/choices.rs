@@ -4,7 +4,7 @@ use crate::renderer::state::MOST_SAMPLES_PER_SWEEP;
 
 /// Registers that a packet's stack may take: few enough that compilers keep them, enough for hundreds of millions of primitives.
 pub(super) const MOST_STACK_REGISTERS: u32 = 16;
-/// Samples of one pixel in one pass.
+/// Samples of one pixel in one pass: as many as a sweep may have.
 pub const MAX_SAMPLES_PER_PASS: u32 = MOST_SAMPLES_PER_SWEEP;
 
 /// Where the geometry lives.
