@@ -41,7 +41,8 @@ fn shifted(point: vec4<u32>, shift: vec4<u32>) -> vec4<u32> {
     return select(point + shift, point ^ shift, HAS_DIGITAL_SHIFT);
 }
 
-// Bits of dimensions 4·block .. 4·block + 3 of a path. Blocks 0 and 1 are the camera's, vertex v has blocks 2v and 2v + 1.
+// Bits of dimensions 4·block .. 4·block + 3 of a path. Blocks 0 and 1 are the camera's, vertex v has blocks
+// 2v and 2v + 1.
 fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
 #if SEQUENCE

@@ -1,4 +1,4 @@
-// What a BSDF gives for a direction. Directions point away from the surface; values include the cosine.
+// Values and samples of a BSDF. Directions point away from the surface; values include the cosine.
 #import core/spectrum.wgsl
 
 struct BsdfSample {

@@ -1,4 +1,5 @@
-// Tables of what microfacets and fibres reflect of all light, by the angle at which it arrives; src/scene/material/albedo.rs makes them.
+// Tables of the albedo of microfacets and fibres by the angle of the light; src/scene/material/albedo.rs
+// makes them.
 #import core/layout.wgsl
 #import geometry/scene.wgsl
 
@@ -10,8 +11,8 @@ fn albedo_node(table: u32, row: u32, column: u32) -> f32 {
     return select(select(word.x, word.y, place == 1u), word.z, place == 2u);
 }
 
-// Linear between the entries, which stand at even steps of roughness, and of a place that changes most about the cosine `knee`, and as its
-// root does near a right angle.
+// The albedo, linear between the entries. These stand at even steps of roughness, and of a place that changes
+// most about the cosine `knee`, and as the cosine's root near a right angle.
 fn tabulated_albedo(table: u32, cosine: f32, roughness: f32, knee: f32) -> f32 {
     let place = sqrt(clamp(cosine * (1.0 + knee) / max(cosine + knee, 1.0e-6), 0.0, 1.0)) * f32(ALBEDO_COLUMNS - 1u);
     let height = clamp(roughness, 0.0, 1.0) * f32(ALBEDO_ROWS - 1u);

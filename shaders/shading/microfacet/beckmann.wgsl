@@ -31,7 +31,7 @@ fn inverse_erf(x: f32) -> f32 {
 
 // Smith's Λ by α² tan²θ: (erf(a) - 1) / 2 + exp(-a²) / (2a√π) with a = 1 / (α tanθ).
 fn beckmann_lambda(stretched: f32) -> f32 {
-    // From a = 4 on it is below 1e-9.
+    // The value from a = 4 on is below 1e-9.
     if stretched < 0.0625 {
         return 0.0;
     }
@@ -39,8 +39,9 @@ fn beckmann_lambda(stretched: f32) -> f32 {
     return 0.5 * (exp(-a * a) * INVERSE_ROOT_PI / a - erfc(a));
 }
 
-// Share of the slopes along a direction that are below `slope`, weighted by how large they look from an angle of the given tangent, less
-// the share `u` of all, which are 1 + Λ. From either end, so that tails keep their digits.
+// The share of the slopes along a direction that are below `slope`, weighted by their size seen from an angle
+// of the given tangent, less the share `u` of all, which are 1 + Λ. The sum starts from the nearer end, so
+// that tails keep their digits.
 fn visible_slopes_beyond(slope: f32, tangent: f32, u: f32, lambda: f32) -> f32 {
     let weighted = tangent * INVERSE_ROOT_PI * exp(-slope * slope);
     if slope < 0.0 {
@@ -49,8 +50,9 @@ fn visible_slopes_beyond(slope: f32, tangent: f32, u: f32, lambda: f32) -> f32 {
     return (1.0 - u) * (1.0 + lambda) - 0.5 * (erfc(slope) - weighted) - lambda;
 }
 
-// Of the slopes seen from wo (Heitz and d'Eon 2014): across the direction of view they are normally distributed; along it their distribution
-// is inverted by Newton's method, which halves the interval where a step would leave it.
+// A normal by the slopes seen from wo (Heitz and d'Eon 2014): across the direction of view they are normally
+// distributed; along it their distribution is inverted by Newton's method, which halves the interval if a
+// step would leave it.
 fn visible_beckmann_normal(wo: vec3<f32>, u: f32, v: f32) -> vec3<f32> {
     let sine = length(wo.xy);
     var direction = vec2<f32>(1.0, 0.0);

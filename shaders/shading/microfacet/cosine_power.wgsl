@@ -1,7 +1,8 @@
 // Lobes whose shape is a power of a cosine. What such a lobe has below the horizon is cut off.
 #import core/math.wgsl
 
-// The cosine of a narrow lobe is next to 1, where f32 has no digits left for the angle. So what is computed with is 1 - cos.
+// The cosine of a narrow lobe is next to 1, where f32 has no digits left for the angle; so these functions
+// compute with 1 - cos.
 
 // 1 - exp(-x), x not negative.
 fn one_minus_exp(x: f32) -> f32 {

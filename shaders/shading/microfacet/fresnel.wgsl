@@ -1,8 +1,9 @@
-// How much light is reflected where it meets another medium.
+// The reflection of light at the boundary of a medium.
 #import core/spectrum.wgsl
 
-// Squared cosine of the refracted direction by Snell's law, not above 0 in total reflection. As a sum of the difference of the indices and
-// the cosine it keeps its accuracy where both are small: 1 - (1 - cos²) / eta² would take every grazing ray for totally reflected.
+// The squared cosine of the refracted direction by Snell's law, not above 0 in total reflection. This sum of
+// the difference of the indices and the cosine is accurate when both are small: by 1 - (1 - cos²) / eta²
+// every grazing ray would be totally reflected.
 fn transmitted_cosine2(cosine: f32, eta: f32) -> f32 {
     return ((eta - 1.0) * (eta + 1.0) + cosine * cosine) / (eta * eta);
 }
@@ -13,8 +14,9 @@ struct Fresnel {
     transmitted: f32,
 }
 
-// What a dielectric reflects and transmits by Fresnel's equations; eta = transmitted over incident index of refraction. Both shares are accurate
-// where they are small: at grazing angles 1 - reflected would have lost its digits.
+// The shares that a dielectric reflects and transmits by Fresnel's equations; eta = transmitted over incident
+// index of refraction. Both shares are accurate when they are small: at grazing angles 1 - reflected would
+// lose its digits.
 fn fresnel_dielectric(cosine: f32, eta: f32) -> Fresnel {
     let cosine2 = transmitted_cosine2(cosine, eta);
     if cosine2 <= 0.0 {

@@ -5,21 +5,16 @@
 // A direction about the shading normal in proportion to its cosine, or uniform, and its cosine.
 fn sample_hemisphere(surface: Surface, u: f32, v: f32) -> vec4<f32> {
     let circle = sin_cos_turns(v);
-#if UNIFORM_HEMISPHERE
-    let r = sqrt((1.0 - u) * (1.0 + u));
-    let cosine = u;
-#else
-    let r = sqrt(u);
-    let cosine = sqrt(1.0 - u);
-#endif
+    var r = sqrt(u);
+    var cosine = sqrt(1.0 - u);
+    if HAS_UNIFORM_HEMISPHERE {
+        r = sqrt((1.0 - u) * (1.0 + u));
+        cosine = u;
+    }
     let local = vec3<f32>(r * circle.y, r * circle.x, cosine);
     return vec4<f32>(frame_to_world(frame_from_normal(surface.shading_normal), local), cosine);
 }
 
 fn hemisphere_pdf(cosine: f32) -> f32 {
-    if HAS_UNIFORM_HEMISPHERE {
-        return 0.5 * INVERSE_PI;
-    } else {
-        return cosine * INVERSE_PI;
-    }
+    return select(cosine, 0.5, HAS_UNIFORM_HEMISPHERE) * INVERSE_PI;
 }

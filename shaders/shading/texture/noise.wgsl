@@ -23,7 +23,8 @@ fn perlin_fade(f: vec2<f32>) -> vec2<f32> {
     return f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
 }
 
-// Improved noise (Perlin 2002) in [-1, 1]: the sum of `octaves`, each half as high and twice as fine as the one before.
+// Improved noise (Perlin 2002) in [-1, 1]: the sum of `octaves`, each half as high and twice as fine as the
+// one before.
 fn perlin_noise(position: vec2<f32>, octaves: u32, seed: u32) -> f32 {
     var p = position;
     var amplitude = 1.0;

@@ -1,8 +1,9 @@
 // The space that normal maps are written in.
 #import shading/shape_point.wgsl
 
-// The direction that stands for `local` about a normal: x along the tangent, in which u grows, y along the bitangent, on the side where v
-// grows; 0 where there is no tangent. src/reference/intersect/normal_map.rs is the same in f64.
+// The direction that stands for `local` about a normal: x along the tangent, in which u grows, y along the
+// bitangent, on the side where v grows; 0 if there is no tangent. src/reference/intersect/normal_map.rs is
+// the same in f64.
 fn from_tangent_space(normal: vec3<f32>, tangents: Tangents, local: vec3<f32>) -> vec3<f32> {
     let along = tangents.along_u - normal * dot(normal, tangents.along_u);
     if dot(along, along) == 0.0 {

@@ -4,12 +4,11 @@
 #import shading/shapes.wgsl
 #import shading/texture/attributes.wgsl
 
-// `first` may be NONE. Of what has one set of coordinates, the directions of that.
+// The tangents by the first or the second coordinates; shapes with one set have those of that. `first` may be
+// NONE.
 fn tangents_of_set(kind: u32, first: u32, point: ShapePoint, by_second: bool) -> Tangents {
-    if HAS_SECOND_UVS {
-        if by_second && first != NONE && kind == KIND_TRIANGLE {
-            return edge_tangents(first + 1u, point.along_u, point.along_v);
-        }
+    if HAS_SECOND_UVS && by_second && first != NONE && kind == KIND_TRIANGLE {
+        return edge_tangents(first + 1u, point.along_u, point.along_v);
     }
     return shape_tangents(kind, first, point);
 }
