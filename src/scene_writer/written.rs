@@ -1,0 +1,40 @@
+//! Scenes as text with the files beside it, however the text says them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use crate::output::{AtomicFile, OutputError};
+use crate::scene::ImportReport;
+
+/// A scene as text, and the files that the text names beside those on disk.
+#[derive(Debug)]
+pub struct WrittenScene {
+    /// TOML, or XML of Mitsuba.
+    pub text: String,
+    /// Paths of the files beside it, with their contents.
+    pub files: Vec<(PathBuf, Vec<u8>)>,
+    /// What is not exact.
+    pub report: ImportReport,
+}
+
+impl WrittenScene {
+    /// Writes the files and, last of all, the text; the paths of what was written.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn write(self, path: &Path) -> Result<Vec<PathBuf>, OutputError> {
+        let write = |(path, content): (PathBuf, Vec<u8>)| {
+            if let Some(folder) = path.parent() {
+                fs::create_dir_all(folder).map_err(|source| OutputError::Write { path: folder.to_owned(), source })?;
+            }
+            AtomicFile::write(&path, &content).map(|()| path)
+        };
+        // Side by side: a disk takes some time to say that a file is safe, however small it is.
+        let mut written = self.files.into_par_iter().map(write).collect::<Result<Vec<_>, _>>()?;
+        AtomicFile::write(path, self.text.as_bytes())?;
+        written.push(path.to_owned());
+        Ok(written)
+    }
+}
