@@ -158,3 +158,31 @@ fn replace_materials(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str =
+        "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n";
+
+    #[test]
+    fn a_newer_version_of_the_format_is_refused_before_its_keys() {
+        let load = |head: &str| load_toml_str(&format!("{head}\n{SCENE}"), "a.toml", Path::new(""));
+        assert!(load("").is_ok() && load("version = 1").is_ok());
+        let error = load("version = 2\nunheard_of = true").expect_err("it is newer");
+        assert_eq!((error.line(), error.key()), (Some(1), Some("version")));
+        assert!(error.message().contains("version 2") && error.message().contains("take a newer gpt"), "{error}");
+        assert_eq!(error.others().len(), 0, "other keys of another version are not judged");
+        for head in ["version = 0", "version = -1", "version = \"1\""] {
+            assert!(load(head).is_err(), "{head}");
+        }
+        assert!(load("unheard_of = true").is_err(), "the control");
+    }
+
+    #[test]
+    fn a_camera_is_missed_where_no_import_brings_one() {
+        let error = load_toml_str("[film]\nsize = [4, 4]\n", "a.toml", Path::new("")).expect_err("it has none");
+        assert_eq!(error.message(), "the key `camera` is missing");
+    }
+}

@@ -31,6 +31,25 @@ fn what_is_written_renders_the_same_picture() {
     place.expect(7, "compare a.exr c.exr");
 }
 
+/// However a scene is written, what comes from no file lies in one folder, which the scene file names from where it lies.
+#[test]
+fn files_are_written_beside_the_scene_file() {
+    let place = place();
+    let disk = r#"<shape type="disk"><transform name="to_world"><scale x="0.5"/></transform></shape>"#;
+    place.write("disk.xml", SCENE.replace("</scene>", &format!("{disk}</scene>")));
+    place.expect(0, "import disk.xml -o a.toml");
+    place.expect(0, "render disk.xml --spp 4 --device cpu --quiet -o a.exr --save-scene b.toml");
+    let [imported, saved] = ["a", "b"].map(|name| {
+        let text = std::fs::read_to_string(place.path(&format!("{name}.toml"))).expect("it was written");
+        assert!(text.starts_with("version = 1\n") && text.contains(&format!("file = \"{name}.files/mesh-1.ply\"")), "{text}");
+        (
+            text.replace(&format!("{name}.files"), ""),
+            std::fs::read(place.path(&format!("{name}.files/mesh-1.ply"))).expect("the mesh"),
+        )
+    });
+    assert_eq!(imported, saved);
+}
+
 /// A model becomes the scene file of what `gpt render` shows of it.
 #[test]
 fn models_are_imported_as_they_are_framed() {

@@ -48,11 +48,14 @@ fn with_normal_maps(scene: &Description) -> HashSet<String> {
     bent
 }
 
+/// The parts of a mesh, each with whether it was turned over.
+type MeshParts = Vec<(Arc<Mesh>, bool)>;
+
 /// What was turned over before: meshes' parts by their addresses, materials and textures by their names.
 #[derive(Default)]
 struct Turned {
     /// The handedness of meshes at rest and of those that a mirror shows.
-    meshes: HashMap<(usize, bool), Vec<(Arc<Mesh>, bool)>>,
+    meshes: HashMap<(usize, bool), MeshParts>,
     materials: HashMap<String, String>,
     textures: HashMap<String, String>,
 }
@@ -77,7 +80,7 @@ impl Turned {
     }
 
     /// The faces that are as they should be, and those that were turned over.
-    fn mesh(&mut self, mesh: &Arc<Mesh>, mirrors: bool) -> Vec<(Arc<Mesh>, bool)> {
+    fn mesh(&mut self, mesh: &Arc<Mesh>, mirrors: bool) -> MeshParts {
         let key = (Arc::as_ptr(mesh) as usize, mirrors);
         if let Some(parts) = self.meshes.get(&key) {
             return parts.clone();

@@ -1,6 +1,9 @@
 //! What the modules of BSDFs hand to each other.
 
-use crate::load::file::material::MaterialEntry;
+use glam::DVec3;
+
+use crate::load::file::colour::Colour;
+use crate::load::file::material::{MaterialEntry, diffuse, pass};
 use crate::load::file::reference::TextureName;
 use crate::load::file::value::{Located, Number};
 
@@ -57,3 +60,19 @@ pub fn with_relief(mut entry: MaterialEntry, relief: Relief) -> MaterialEntry {
 
 /// A material without a name, and whether both sides count.
 pub type Keyed = (MaterialEntry, bool);
+
+/// The ray goes on.
+pub fn nothing() -> MaterialEntry {
+    MaterialEntry::Pass(pass::Keys::default())
+}
+
+/// Reflects nothing: the reflectance of a diffuse surface is 0 where none is set.
+pub fn black() -> MaterialEntry {
+    MaterialEntry::Diffuse(diffuse::Keys::default())
+}
+
+/// A diffuse grey.
+pub fn grey(reflectance: f64) -> Result<MaterialEntry, String> {
+    let reflectance = Colour::constant(DVec3::splat(reflectance))?;
+    Ok(MaterialEntry::Diffuse(diffuse::Keys { reflectance, ..Default::default() }))
+}
