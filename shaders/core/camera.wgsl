@@ -26,7 +26,7 @@ fn filter_offset(u: f32) -> f32 {
 }
 #endif
 
-// Where the sample lies in the picture, in pixels.
+// Position of the sample in the picture, in pixels.
 fn sample_position(pixel: u32, random: vec4<u32>) -> vec2<f32> {
     // Division by a constant is a multiplication and a shift.
     let y = pixel / FILM_WIDTH;
@@ -62,7 +62,7 @@ fn aperture_point(bits_u: u32, bits_v: u32) -> vec2<f32> {
 }
 #endif
 
-// Where the camera is when a path sees the scene: words of the view.
+// Position and orientation of the camera at the path's time: words of the view.
 struct Pose {
     position: vec4<f32>,
     corner: vec4<f32>,

@@ -1,11 +1,11 @@
-//! What is chosen between, and the numbers that decide.
+//! The alternatives of a plan, and the numbers that decide between them.
 
 /// Registers that a packet's stack may take: few enough that compilers keep them, enough for hundreds of millions of primitives.
 pub(super) const MOST_STACK_REGISTERS: u32 = 16;
 /// Samples of one pixel in one pass.
 pub const MAX_SAMPLES_PER_PASS: u32 = 64;
 
-/// Where the geometry lives.
+/// The form in which kernels have the geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GeometryPlacement {
     /// Every primitive is code with constant coordinates; there is no hierarchy.
@@ -26,7 +26,7 @@ pub enum StageMode {
 /// Bytes of film per pixel of a band: sum and compensation.
 pub const FILM_BYTES: u64 = 2 * 16;
 
-/// Where the film's sums live.
+/// The storage of the film's sums.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilmStorage {
     /// rgba32float storage textures, where the device can read and write them.

@@ -15,7 +15,7 @@ fn conductor_sampling_weight(lobe: Lobe) -> f32 {
     return max_component(conductor_reflectance(lobe, 1.0));
 }
 
-// What a microfacet reflects.
+// Fresnel reflectance of a microfacet.
 fn conductor_reflectance(lobe: Lobe, cosine: f32) -> Spectrum {
 #if FURTHER_PARAMETERS
     return conductor_fresnel(lobe, cosine) * further_parameter(lobe, 1u, WHITE);

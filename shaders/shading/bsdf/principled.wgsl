@@ -18,7 +18,7 @@
 
 struct Principled {
     base: Spectrum,
-    // Of the dielectric, at normal incidence.
+    // Reflectance of the dielectric at normal incidence.
     normal_incidence: Spectrum,
     metallic: f32,
     specular: f32,
@@ -27,7 +27,7 @@ struct Principled {
     facets: Facets,
     // Transmitted light goes on as if the wall had no thickness.
     thin: bool,
-    // Of the index of refraction beyond over that on wo's side; 1 where no light comes from within.
+    // Index of refraction beyond the surface over that on wo's side; 1 where no light comes from within.
     eta: f32,
 #if SHEEN
     sheen: Sheen,
@@ -85,7 +85,7 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
     return p;
 }
 
-// As it lies on a surface seen from wo.
+// The principled lobe on a surface seen from wo.
 fn principled_at(lobe: Lobe, surface: Surface, wo: vec3<f32>) -> Principled {
     var p = principled_of(lobe, surface.front);
     p.coat = coat_on(p.coat, lobe, surface, wo);
@@ -121,7 +121,8 @@ struct PrincipledSplit {
     passed: f32,
 }
 
-// What a facet does to light that it sees at an angle of the given cosine. Fresnel's angle is that on the side of air.
+// Reflection and transmission of light that meets a facet at an angle of this cosine. Fresnel's angle is the
+// one on the side of air.
 fn principled_split(p: Principled, cosine: f32) -> PrincipledSplit {
     var outside = cosine;
     if p.eta < 1.0 {
@@ -137,7 +138,8 @@ fn principled_split(p: Principled, cosine: f32) -> PrincipledSplit {
 }
 
 #if COMPENSATION
-// What microfacets send to each other leaves as what they reflect once does: 1 + F0 (1 - E) / E, E the share of light that white ones reflect.
+// Compensation for light scattered among microfacets: 1 + F0 (1 - E) / E, E the share of light that white
+// ones reflect once.
 fn principled_compensation(p: Principled, cosine: f32) -> Spectrum {
     if (p.facets.flags & COMPENSATED) == 0u || p.eta != 1.0 {
         return WHITE;
@@ -159,7 +161,7 @@ fn principled_is_within(p: Principled, surface: Surface) -> bool {
 }
 
 #if SHEEN
-// What fibres leave to what lies below.
+// Share of light that passes the sheen and reaches the layers below.
 fn principled_below_sheen(p: Principled, cosine_o: f32, cosine_i: f32) -> f32 {
     return 1.0 - max(sheen_taken(p.sheen, cosine_o), sheen_taken(p.sheen, cosine_i));
 }

@@ -1,4 +1,4 @@
-// What decides the weights of a blend: one vec4 of the tables each,
+// Parameters of a blend's weights, one vec4 in each of the tables:
 //   (kind and flags; value, power or index of refraction; threshold; texture or NONE)
 #import core/layout.wgsl
 #import core/math.wgsl

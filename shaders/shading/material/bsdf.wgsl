@@ -1,4 +1,4 @@
-// What a surface does to light, whatever its material is made of: load, evaluate, sample.
+// The BSDF of a surface, for every material: load, evaluate, sample.
 #import core/spectrum.wgsl
 #import shading/texture/normal_shadowing.wgsl
 #import shading/texture/coordinates.wgsl
@@ -69,7 +69,7 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
 }
 #endif
 
-// Whether light sampling can contribute: some lobe is not a delta, and not black.
+// True where light sampling can contribute: some lobe is not a delta, and not black.
 fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
     return lobe_is_non_delta(bsdf.lobe);
 }

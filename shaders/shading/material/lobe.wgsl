@@ -5,7 +5,7 @@
 #import shading/texture/coordinates.wgsl
 #import shading/texture/texture.wgsl
 
-// What the parameters mean depends on the lobe: src/scene/material/kind.rs.
+// A lobe; the meaning of the parameters depends on its kind: src/scene/material/kind.rs.
 struct Lobe {
     // The kind, and above it the form.
     kind: u32,
@@ -25,7 +25,7 @@ struct Lobe {
 #endif
 #endif
 #if ROUGH_PLASTIC
-    // Where those that need no look-up stand in the tables.
+    // Index of the parameters without a texture in the tables.
     further_word: u32,
 #endif
 }
@@ -126,7 +126,7 @@ fn is_front_only(material: u32) -> bool {
     return (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & FRONT_ONLY) != 0u;
 }
 
-// As the lobe of what scatters nothing.
+// The lobe that scatters nothing.
 fn no_lobe() -> Lobe {
     var lobe: Lobe;
     lobe.kind = NO_LOBE;
@@ -150,7 +150,7 @@ fn own_emission(material: u32, front: bool, uv: TextureCoordinates) -> Spectrum 
 }
 
 #if GUIDE
-// It scatters in all directions above the surface, mostly evenly.
+// True of lobes that scatter in all directions above the surface, mostly evenly.
 fn lobe_is_broad(lobe: Lobe) -> bool {
     let kind = lobe_kind(lobe);
     return kind == DIFFUSE || kind == PLASTIC || kind == ROUGH_PLASTIC;

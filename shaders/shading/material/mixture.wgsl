@@ -151,7 +151,7 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
                 }
             }
         }
-        // What is left of the random number once it has chosen the lobe.
+        // The rest of the random number after it has chosen the lobe, rescaled to [0, 1).
         let left = clamp((choice - (below - probability)) / probability, 0.0, LARGEST_NUMBER);
         chosen = sample_lobe(weighted.lobe, surface, wo, left, u, v);
         chosen.weight *= weighted.weight;

@@ -1,4 +1,5 @@
-// What a BSDF gives for a direction. Directions point away from the surface; values include the cosine.
+// Results of evaluating and sampling a BSDF. Directions point away from the surface; values include the
+// cosine.
 #import core/spectrum.wgsl
 
 struct BsdfSample {

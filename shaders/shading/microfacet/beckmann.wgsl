@@ -49,8 +49,9 @@ fn visible_slopes_beyond(slope: f32, tangent: f32, u: f32, lambda: f32) -> f32 {
     return (1.0 - u) * (1.0 + lambda) - 0.5 * (erfc(slope) - weighted) - lambda;
 }
 
-// Of the slopes seen from wo (Heitz and d'Eon 2014): across the direction of view they are normally distributed; along it their distribution
-// is inverted by Newton's method, which halves the interval where a step would leave it.
+// Samples the slopes visible from wo (Heitz and d'Eon 2014): across the direction of view they are normally
+// distributed; along it their distribution is inverted by Newton's method, which halves the interval where a
+// step would leave it.
 fn visible_beckmann_normal(wo: vec3<f32>, u: f32, v: f32) -> vec3<f32> {
     let sine = length(wo.xy);
     var direction = vec2<f32>(1.0, 0.0);

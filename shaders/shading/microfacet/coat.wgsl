@@ -29,7 +29,7 @@ fn coat_of(lobe: Lobe, strength: f32, roughness: f32) -> Coat {
 
 #if COAT_NORMALS
 
-// As it lies on a surface seen from wo: about the surface's own normal, or what the coat's map makes of it.
+// The coat on a surface seen from wo: about the surface's own normal, or the normal of the coat's map.
 fn coat_on(coat: Coat, lobe: Lobe, surface: Surface, wo: vec3<f32>) -> Coat {
     var normal = normalize(surface.coat_normal);
     if (lobe.kind & COAT_NORMAL_MAP) != 0u {
@@ -76,7 +76,7 @@ fn coat_reflection(coat: Coat, base: Frame, wo: vec3<f32>, wi: vec3<f32>) -> vec
 
 #else
 
-// As it lies on a surface.
+// The coat on a surface seen from wo; without a normal map of its own there is nothing to adapt.
 fn coat_on(coat: Coat, lobe: Lobe, surface: Surface, wo: vec3<f32>) -> Coat {
     return coat;
 }

@@ -23,7 +23,8 @@ fn relative_ior(lobe: Lobe, surface: Surface) -> f32 {
     return select(1.0 / lobe.ior, lobe.ior, surface.front);
 }
 
-// What a boundary reflects and transmits before its colours, and how probably sampling chooses either; in proportion to the light that it carries.
+// Reflectance and transmittance of a boundary before its colours, and the probability of sampling either, in
+// proportion to the light that it carries.
 struct DielectricSplit {
     fresnel: Fresnel,
     choose_reflection: f32,
@@ -70,7 +71,8 @@ fn sample_delta_dielectric(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: 
     return BsdfSample(wi, lobe.color1 * weight, -1.0, eta * eta, false);
 }
 
-// What a plate with two boundaries reflects and transmits: light goes to and fro between them. From either side it is the denser.
+// Reflectance and transmittance of a plate with two boundaries, between which light is reflected back and
+// forth. From either side the plate is the denser medium.
 fn fresnel_plate(lobe: Lobe, cosine: f32) -> Fresnel {
     let once = fresnel_dielectric(cosine, lobe.ior);
     return Fresnel(2.0 * once.reflected / (1.0 + once.reflected), once.transmitted / (1.0 + once.reflected));

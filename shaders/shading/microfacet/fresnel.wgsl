@@ -13,8 +13,9 @@ struct Fresnel {
     transmitted: f32,
 }
 
-// What a dielectric reflects and transmits by Fresnel's equations; eta = transmitted over incident index of refraction. Both shares are accurate
-// where they are small: at grazing angles 1 - reflected would have lost its digits.
+// Reflectance and transmittance of a dielectric by Fresnel's equations; eta = transmitted over incident index
+// of refraction. Both are accurate where they are small: at grazing angles 1 - reflected would have lost its
+// digits.
 fn fresnel_dielectric(cosine: f32, eta: f32) -> Fresnel {
     let cosine2 = transmitted_cosine2(cosine, eta);
     if cosine2 <= 0.0 {

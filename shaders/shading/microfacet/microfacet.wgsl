@@ -18,7 +18,8 @@ fn to_local(frame: Frame, w: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(dot(w, frame.tangent), dot(w, frame.bitangent), dot(w, frame.normal));
 }
 
-// Those of a lobe. Of two widths, one too narrow to be resolved is as wide as can be.
+// The microfacets of a lobe. If one of two widths is too narrow to be resolved, it is raised to the least
+// width that is.
 fn lobe_facets(lobe: Lobe) -> Facets {
 #if ANISOTROPY
     if (lobe.kind & ANISOTROPIC) != 0u {

@@ -1,4 +1,4 @@
-// What smooth and rough plastic share: a diffuse base of colour color0 below a boundary that reflects color1.
+// The plastic model, smooth and rough: a diffuse base of colour color0 below a boundary that reflects color1.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/material/lobe.wgsl

@@ -1,4 +1,4 @@
-// What the attributes of a primitive say of a point of it.
+// Attributes of a primitive, interpolated at a point.
 #import core/layout.wgsl
 #import geometry/records.wgsl
 #import shading/texture/coordinates.wgsl
@@ -7,7 +7,7 @@
 #import geometry/motion.wgsl
 
 struct Attribute {
-    // As long as interpolation leaves it; 0 where there is none.
+    // Interpolated normal, not normalised; 0 where there is none.
     normal: vec3<f32>,
     uv: vec2<f32>,
 }
@@ -49,7 +49,8 @@ fn second_uv(first: u32, weights: vec2<f32>) -> vec2<f32> {
 }
 #endif
 
-// What textures are looked up by at a point of a primitive whose first texture coordinates there are `uv`; triangles may have second ones.
+// Texture coordinates at a point of a primitive whose first ones there are `uv`; triangles may have second
+// ones.
 fn texture_coordinates(kind: u32, first: u32, uv: vec2<f32>, weights: vec2<f32>) -> TextureCoordinates {
 #if SECOND_UVS
     if first != NONE && kind == KIND_TRIANGLE {
@@ -59,7 +60,7 @@ fn texture_coordinates(kind: u32, first: u32, uv: vec2<f32>, weights: vec2<f32>)
     return only_coordinates(uv);
 }
 
-// Of the linear map from texture coordinates at the corners to the edges.
+// Tangents by the linear map from texture coordinates at the corners to the edges.
 fn edge_tangents(first: u32, edge_u: vec3<f32>, edge_v: vec3<f32>) -> Tangents {
     let words = attribute_words(first);
     let uv0 = vec2<f32>(words.w0.w, words.w1.w);
@@ -71,7 +72,7 @@ fn edge_tangents(first: u32, edge_u: vec3<f32>, edge_v: vec3<f32>) -> Tangents {
 }
 
 #if INSTANCES
-// The same of a primitive of an instance.
+// Interpolated attributes of a primitive of an instance.
 fn interpolate_in_instance(placement: Placement, first: u32, weights: vec2<f32>) -> Attribute {
     let words = attribute_words(first);
     let w = 1.0 - weights.x - weights.y;

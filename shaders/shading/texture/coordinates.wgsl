@@ -3,7 +3,7 @@
 #if SECOND_UVS
 alias TextureCoordinates = vec4<f32>;
 
-// Of what has one set.
+// Texture coordinates of surfaces with a single set.
 fn only_coordinates(uv: vec2<f32>) -> TextureCoordinates {
     return uv.xyxy;
 }

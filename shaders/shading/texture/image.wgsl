@@ -50,7 +50,7 @@ fn texel(image: Image, x: i32, y: i32) -> Spectrum {
         numbers = vec3<u32>(channel - 1u);
     }
 #endif
-    // Where those stand, or what their integers stand for.
+    // Indices of the texels' values, or the values of their integers.
     var words = vec3<u32>(0u);
     switch (image.flags >> FORMAT_SHIFT) & 3u {
 #if TEXELS_IN_BYTES
@@ -88,7 +88,7 @@ fn texel(image: Image, x: i32, y: i32) -> Spectrum {
 #endif
 }
 
-// Of a texel of two words, halves by their numbers.
+// Three channels of a texel of two words, as halves, by their numbers.
 fn texel_halves(image: Image, index: u32, numbers: vec3<u32>) -> vec3<u32> {
     let first = image.first + 2u * index;
     let both = select(vec3<u32>(texel_word(first)), vec3<u32>(texel_word(first + 1u)), numbers > vec3<u32>(1u));
@@ -112,7 +112,7 @@ fn image_color(image: Image, st: vec2<f32>) -> Spectrum {
 #if TEXTURES_OF_TRIANGLES
     let is_triangle = (image.flags & TEXTURE_TRIANGLES) != 0u;
     var first = vec3<f32>(0.0);
-    // Of the corners: beyond the triangle the plane ends at their colours.
+    // Least and greatest colour of the corners: beyond the triangle the plane is clamped to them.
     var low = vec3<f32>(INFINITY_DISTANCE);
     var high = vec3<f32>(-INFINITY_DISTANCE);
 #endif

@@ -35,7 +35,8 @@ fn squared_tangent(cosine: f32) -> f32 {
     return (1.0 - squared_cosine) / squared_cosine;
 }
 
-// What is left of light that leaves along `wi` where the normal was `unbent` before a map bent it; 0: none did.
+// Share of light that leaves along `wi` where a map has replaced the normal `unbent` by `bent`; `unbent` is 0
+// where there is no map.
 fn normal_shadowing(unbent: vec3<f32>, bent: vec3<f32>, wi: vec3<f32>) -> f32 {
     if dot(unbent, unbent) == 0.0 {
         return 1.0;

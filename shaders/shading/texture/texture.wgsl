@@ -13,7 +13,7 @@ fn texture_word(texture: u32, word: u32) -> vec4<f32> {
     return tables[FIRST_TEXTURE_WORD + texture * TEXTURE_WORDS + word];
 }
 
-// It lies by the second texture coordinates of triangles that have some.
+// True of textures looked up by the second texture coordinates, on triangles that have some.
 fn lies_by_second_uvs(texture: u32) -> bool {
 #if SECOND_UVS
     return (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_BY_SECOND_UVS) != 0u;
@@ -27,7 +27,7 @@ fn bends_by_second_uvs(texture: u32) -> bool {
     return lies_by_second_uvs(texture) && (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_BENDS_BY_FIRST_UVS) == 0u;
 }
 
-// Where in itself a texture is looked up.
+// Position at which a texture is looked up, in its own coordinates.
 fn texture_place(texture: u32, coordinates: TextureCoordinates) -> vec2<f32> {
     let t1 = texture_word(texture, 1u);
 #if SECOND_UVS

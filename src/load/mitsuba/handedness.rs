@@ -48,7 +48,8 @@ fn with_normal_maps(scene: &Description) -> HashSet<String> {
     bent
 }
 
-/// What was turned over before: meshes' parts by their addresses, materials and textures by their names.
+/// Objects that were mirrored before: meshes' parts by their addresses, materials and textures by their
+/// names.
 #[derive(Default)]
 struct Turned {
     /// The handedness of meshes at rest and of those that a mirror shows.

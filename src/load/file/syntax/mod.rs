@@ -45,7 +45,7 @@ pub struct SceneFile {
     pub render: RenderTable,
     #[serde(default)]
     pub output: OutputTable,
-    /// It may come from an imported file.
+    /// The camera, which may also come from an imported file.
     #[serde(default)]
     pub camera: Option<CameraTable>,
     #[serde(default)]
@@ -97,7 +97,7 @@ pub struct FilterKeys {
     pub radius: Option<Checked<FilterRadius>>,
 }
 
-/// Where the picture is taken from.
+/// The camera, from which the picture is taken.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(extend("dependentRequired" = { "aperture": ["focus_distance"], "interpolation": ["keyframes"] }, "allOf" = [{ "oneOf": [
