@@ -81,15 +81,15 @@ struct Ray {
     direction: vec3<f32>,
 }
 
-// What a ray meets first: `primitive` is NONE where it meets nothing. (u, v) are barycentric coordinates of the second and third
-// vertex, the coordinates along a quad's edges, and unused for other primitives.
+// The closest hit of a ray: `primitive` is NONE where there is none. (u, v) are barycentric coordinates of
+// the second and third vertex, the coordinates along a quad's edges, and unused for other primitives.
 struct Hit {
     t: f32,
     primitive: u32,
     u: f32,
     v: f32,
 #if INSTANCES
-    // What the primitive is seen as part of, or NONE.
+    // The instance through which the primitive was hit, or NONE.
     instance: u32,
 #endif
 }

@@ -1,4 +1,4 @@
-// What the host tells a kernel beside the scene (src/plan/parameters.rs, src/packed/view.rs).
+// Parameters of a kernel beside the scene (src/plan/parameters.rs, src/packed/view.rs).
 #import core/layout.wgsl
 
 @group(0) @binding(BINDING_PASS) var<uniform> pass_parameters: PassParameters;

@@ -5,7 +5,7 @@
 #import core/math.wgsl
 #import geometry/records.wgsl
 
-// What stands for a child on a traversal's stack.
+// Entry of a traversal's stack for one child.
 // Inner child: node index. Leaf: LEAF | (size - 1) << 24 | first primitive.
 const LEAF: u32 = 0x80000000u;
 // No entry is left. No leaf has this entry: its size would be above any.
@@ -64,7 +64,7 @@ fn existing_children(words: NodeWords) -> u32 {
     return words.w0.w >> 28u;
 }
 
-// What stands for the children on a stack.
+// Entries of a traversal's stack for the four children.
 fn child_entries(words: NodeWords) -> vec4<u32> {
     let flags = words.w0.w >> 24u;
     let inner = (vec4<u32>(flags) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);

@@ -14,7 +14,7 @@ fn is_instance(words: PrimitiveWords) -> bool {
     return primitive_kind(words.w0.w) == KIND_INSTANCE;
 }
 
-// Of a primitive's record that stands for one.
+// Number of the instance for which a primitive's record stands.
 fn instance_number(words: PrimitiveWords) -> u32 {
     return primitive_material(words.w0.w);
 }
@@ -54,7 +54,7 @@ fn prepare_ray_in_instance(ray: Ray, instance: u32) -> PreparedRay {
     return PreparedRay(ray.origin, ray.direction / dot(ray.direction, ray.direction), frame.tangent, frame.bitangent, instance);
 }
 
-// Where an instance stands at the path's time.
+// Transform of an instance at the path's time.
 struct Placement {
     exists: bool,
     mirrored: bool,
@@ -109,8 +109,10 @@ fn placed_point(placement: Placement, p: vec3<f32>) -> vec3<f32> {
     }
 }
 
-// What rounding of placed points is relative to beside their own magnitudes, of a ray's way to the group's space and back as well. The place adds
-// nothing: both ways go by the same one. Some 4 rounding errors come together on either way, and POINT_ERROR stands for 16.
+// The magnitude to which the rounding error of placed points is relative, beside their own magnitudes. It
+// covers the ray's transform to the group's space and back; the translation adds nothing, because both
+// transforms use the same one. Some 4 rounding errors come together in either transform, and POINT_ERROR
+// stands for 16.
 fn placed_magnitude(placement: Placement, size: vec3<f32>) -> vec3<f32> {
     let words = placement.words;
     let forward = mat3x3<f32>(abs(words.w3.xyz), abs(words.w4.xyz), abs(words.w5.xyz));

@@ -81,7 +81,7 @@ fn hit_by_query(ray: PreparedRay, before: Hit, after: ptr<function, f32>, flags:
             by_device = committed.t;
             break;
         }
-        // It lies at the ray's end: something may stand before it.
+        // The hit lies at the ray's end: something may be in front of it.
         t_max = min(t_max, committed.t) * (1.0 - DEVICE_ERROR);
 #else
         break;

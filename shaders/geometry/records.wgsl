@@ -40,7 +40,8 @@ fn node_words(index: u32) -> NodeWords {
 #endif
 
 #if PACKETS
-// Where a node's words begin, so that nothing is left to multiply when the way leads there; and one of them.
+// Index of a node's first word, computed early so that the traversal multiplies nothing; and one of its
+// words.
 #if NODE_CHUNKS
 fn first_word_of_node(index: u32) -> u32 {
     return index;

@@ -38,7 +38,7 @@ struct Traversal {
     inverse_direction: vec3<f32>,
     hit: Hit,
     pending: Pending,
-    // What a shadow ray has met.
+    // Result of a shadow ray.
     shadow: Shadow,
 #if INSTANCES
     // The ray in the world; `ray` may be in an instance.

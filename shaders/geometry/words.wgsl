@@ -1,4 +1,5 @@
-// What one load of a record brings: its words of 16 bytes. src/plan/chunks.rs writes loads of the same kind.
+// The words, 16 bytes each, that one load of a record brings. src/plan/chunks.rs writes loads of the same
+// kind.
 
 // (first point, kind and material), (second, light or NONE), (third, attributes or NONE); src/packed/primitive.rs.
 struct PrimitiveWords {

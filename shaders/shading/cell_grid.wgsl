@@ -10,7 +10,7 @@ fn normal_facing(normal: vec3<f32>) -> u32 {
     return select(select(4u, 2u, is_y), 0u, is_x) + select(0u, 1u, along < 0.0);
 }
 
-// Where the box of a point stands in a table, given the table's first words; 0, where the header is, for points outside.
+// Index of a point's box in a table, given the table's first words; 0, the header, for points outside.
 fn grid_word(begins: vec4<u32>, counts: vec3<u32>, facing: u32, point: vec3<f32>) -> u32 {
     let place = (point - bitcast<vec3<f32>>(begins.xyz)) * bitcast<f32>(begins.w);
     if !(all(place >= vec3<f32>(0.0)) && all(place < vec3<f32>(counts))) {

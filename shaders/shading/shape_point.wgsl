@@ -2,9 +2,9 @@
 
 struct ShapePoint {
     position: vec3<f32>,
-    // Of length 1, on the front side.
+    // Unit normal on the front side.
     normal: vec3<f32>,
-    // Along two edges, where its texture coordinates come from them.
+    // Tangents along two edges, where texture coordinates come from them.
     uv: vec2<f32>,
     // Directions in which those grow.
     along_u: vec3<f32>,
@@ -28,8 +28,8 @@ fn no_shape_point() -> ShapePoint {
     return point;
 }
 
-// What a ray meets of a flat shape with two edges. Its point is found from the corners, not along the ray, so that its error does not
-// grow with the distance travelled.
+// Point of a flat shape with two edges. The point is found from the corners, not along the ray, so that its
+// error does not grow with the distance travelled.
 fn flat_point(corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>, uv: vec2<f32>, share: f32, error: f32) -> ShapePoint {
     let perpendicular = cross(edge_u, edge_v);
     let parallelogram = length(perpendicular);

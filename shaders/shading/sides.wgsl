@@ -1,4 +1,4 @@
-// Where directions lie about a surface.
+// Sides of a surface on which directions lie.
 #import shading/surface.wgsl
 
 fn on_wo_side(surface: Surface, wi: vec3<f32>) -> bool {

@@ -121,7 +121,7 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     surface.facing_normal = select(-point.normal, point.normal, surface.front);
     surface.error = POINT_ERROR * dot(abs(surface.facing_normal), point.size + moved) + point.error;
 
-    // What vertices say of it: 0 stands for the geometric normal.
+    // Normal interpolated from the vertices: 0 stands for the geometric normal.
     var own_normal = vec3<f32>(0.0);
     surface.uv = only_coordinates(point.uv);
     if HAS_ATTRIBUTES {

@@ -13,7 +13,7 @@ struct Warp {
 struct WarpCell {
     column: u32,
     row: u32,
-    // Where in the cell the point lies, in (0, 1) x (0, 1).
+    // Position of the point in the cell, in (0, 1) x (0, 1).
     position: vec2<f32>,
 }
 

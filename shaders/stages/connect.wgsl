@@ -66,7 +66,7 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
 #endif
 }
 
-// Of the path with this index in the queue.
+// Number of shadow rays of the path with this index in the queue.
 fn shadow_ray_count(index: u32) -> u32 {
     var rays = 1u;
     if LIGHT_SAMPLES > 1u {

@@ -133,7 +133,7 @@ fn with_square(sum: f32, square: f32, number: u32) -> f32 {
 fn add_sample(pixel: ptr<function, FilmPixel>, found: Spectrum) {
     let sample = clamped(pixel, found);
 #if LAYER_SQUARES
-    // What variances are made of.
+    // Squares, from which variances are made.
     let radiance = sample * sample;
 #else
     let radiance = sample;

@@ -10,7 +10,8 @@
 #import stages/fused_vertex.wgsl
 #import stages/statistics.wgsl
 
-// What whole paths bring, of the lanes that have one, all on the same vertex at a time; counts their rays. All lanes take part.
+// Radiance of whole paths, for the lanes that have one, all on the same vertex at a time; counts their rays.
+// All lanes take part.
 fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> Spectrum {
     var path = first;
     var radiance = BLACK;

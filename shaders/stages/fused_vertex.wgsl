@@ -9,7 +9,7 @@
 #import geometry/software/packet.wgsl
 #endif
 
-// Whether the condition holds for any of the paths that are traced side by side.
+// True where the condition holds for any of the paths that are traced side by side.
 fn any_path(condition: bool) -> bool {
     if HAS_PACKETS {
         return any_lane(condition);
@@ -18,7 +18,7 @@ fn any_path(condition: bool) -> bool {
     }
 }
 
-// What the ray meets first, of the lanes that have one.
+// Closest hits of the rays of all lanes that have one.
 fn nearest(ray: Ray, has_ray: bool) -> Hit {
 #if PACKETS
     return closest_hit_together(ray, select(-1.0, INFINITY_DISTANCE, has_ray));

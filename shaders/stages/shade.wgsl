@@ -45,7 +45,8 @@ fn shade(
         queues[(1u - queue) * PATH_CAPACITY + index] = slot;
     }
 #if LIGHTS
-    // Whether any of several is needed shows when they are made, one by one: such a path may be in the queue with none.
+    // With several shadow rays it is known only later, one by one, which are needed: such a path may be in
+    // the queue without any.
     let is_listed = is_needed(shading.shadow) || (LIGHT_SAMPLES > 1u && shading.light_samples > 1u);
     let shadow_index = take_index(2u + queue, is_listed);
     var rays = 0u;

@@ -83,7 +83,7 @@ fn store_hit(slot: u32, hit: Hit) {
 #endif
 }
 
-// Of a hit in an instance, which is one on a triangle, without its distance.
+// A hit in an instance, which is always on a triangle, without its distance.
 fn load_hit(slot: u32) -> Hit {
     let h = path_state[PLANE_HIT + slot];
     let primitive = bitcast<u32>(h.y);
@@ -96,7 +96,7 @@ fn load_hit(slot: u32) -> Hit {
     return world_hit(h.x, primitive, h.z, h.w);
 }
 
-// Where in its planes shadow ray `number` stands of the path with this index in the queue.
+// Index among its planes of shadow ray `number` of the path with this index in the queue.
 fn shadow_ray_index(index: u32, number: u32) -> u32 {
     return select(0u, number * SHADOW_PLANES, LIGHT_SAMPLES > 1u) + index;
 }

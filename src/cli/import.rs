@@ -20,7 +20,7 @@ pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
         let message = "cannot be imported: it is neither glTF (.gltf, .glb) nor a Mitsuba scene (.xml) nor a model (.obj, .ply)";
         return Err(SceneError::in_file(arguments.scene.display(), message).into());
     }
-    // Of a model, the scene that `gpt render` makes: framed, with a ground and a light.
+    // A model becomes the scene that `gpt render` makes: framed, with a ground and a light.
     let scene = reading::shown(false, &options.progress, || source.load(&options))?;
     scene.warnings.iter().for_each(|warning| terminal::warn(warning));
     let written = scene_writer::as_scene_file(&scene, target)?;

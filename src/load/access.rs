@@ -1,4 +1,4 @@
-//! What reading a scene may do.
+//! Permissions and limits of reading a scene.
 
 use std::path::PathBuf;
 
@@ -8,14 +8,14 @@ use super::reading::ReadingProgress;
 use super::view::ModelView;
 use crate::file_log::FileLog;
 
-/// What whoever reads a scene allows.
+/// Options of the reader of a scene.
 #[derive(Debug, Clone, Default)]
 pub struct LoadOptions {
     /// Files that the scene names lie in this folder, wherever links lead; others are refused. None: they may lie anywhere.
     pub assets_root: Option<PathBuf>,
-    /// Where something is missing for which another would stand in, the scene is refused.
+    /// Refuse a scene in which something is missing, instead of replacing it.
     pub strict: bool,
-    /// What `$key` stands for in a file of Mitsuba.
+    /// Values of `$key` in a file of Mitsuba.
     pub definitions: Vec<(String, String)>,
     /// The camera of an imported file that has several, by its name.
     pub camera: Option<String>,

@@ -20,7 +20,7 @@ const FILES: [(&str, &[u8]); 10] = [
     ("textures/worn.png", include_bytes!("../../scenes/textures/worn.png")),
 ];
 
-/// Whether a file is a part of the program, and not on disk.
+/// True of files that are part of the program, and not on disk.
 pub fn is_builtin(path: &Path) -> bool {
     path.starts_with(FOLDER)
 }

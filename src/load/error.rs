@@ -1,4 +1,4 @@
-//! What is wrong with a scene, and where.
+//! Mistakes in a scene, and their places.
 
 use std::fmt;
 use std::ops::Range;
@@ -82,7 +82,7 @@ impl SceneError {
         Some(first)
     }
 
-    /// What else is wrong with the same file, as far as it was found out.
+    /// Other mistakes in the same file, as far as they were found.
     pub fn others(&self) -> &[Self] {
         &self.0.others
     }
@@ -107,12 +107,12 @@ impl SceneError {
         self.0.key.as_deref()
     }
 
-    /// What was wrong, without the place.
+    /// The mistake, without its place.
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// What would be right: valid choices, a likely spelling.
+    /// A hint at the right input: valid choices, a likely spelling.
     pub fn help_text(&self) -> Option<&str> {
         self.0.help.as_deref()
     }

@@ -9,7 +9,7 @@ use super::scene_file::load_toml_str;
 /// Spheres in a row; they stand this far apart.
 const ROW: usize = 8;
 const SPACING: f64 = 1.15;
-/// Of the shapes, behind the spheres.
+/// Distance between the shapes, which stand behind the spheres.
 const SHAPE_SPACING: f64 = 1.5;
 
 const STAGE: &str = r#"# Every example of a material on a sphere, of a shape as a surface and as a light, and of a light that shines from a point or in a direction.
@@ -75,7 +75,7 @@ pub fn scene() -> String {
     let count = shape_examples().count();
     for (place, (_, keys)) in shape_examples().enumerate() {
         let x = (place as f64 - 0.5 * (count - 1) as f64) * SHAPE_SPACING;
-        // What has no end is seen beyond the ground.
+        // Infinite shapes are seen beyond the ground.
         let places: &[_] =
             if is_infinite(&keys) { &[("surface", -1.5, -12.0)] } else { &[("surface", 0.6, -3.5), ("light", 2.2, -4.5)] };
         for (material, y, z) in places {

@@ -6,7 +6,7 @@ use super::printable::printable_character;
 
 /// Most characters of a line that are shown.
 const LINE: usize = 200;
-/// Of those, most before the mistake.
+/// Most of those characters that stand before the mistake.
 const BEFORE: usize = 80;
 /// Most lines that are shown.
 const LINES: usize = 8;

@@ -23,7 +23,7 @@ pub const MOST_LIBRARY_BYTES: u64 = 1 << 28;
 /// Most bytes that are read for one scene, those of files that are read again counted again: for each byte of the files, and beside a first amount.
 const MOST_READ: (u64, u64) = (64, 1 << 28);
 
-/// Where files may lie.
+/// Folders in which files may lie.
 #[derive(Debug, Clone, Default)]
 pub struct Files {
     /// With links followed; None: anywhere.
@@ -65,7 +65,7 @@ impl Account {
 /// A file that was looked for.
 pub struct Found {
     pub path: PathBuf,
-    /// It lies elsewhere than was written, or in another case.
+    /// The file has another folder or another case than was written.
     pub is_substitute: bool,
 }
 
@@ -84,12 +84,12 @@ impl Files {
         }
     }
 
-    /// The same files, of which this is told how many are read.
+    /// These files, with a report of how many are read.
     pub fn with_progress(self, progress: ReadingProgress) -> Self {
         Self { progress, ..self }
     }
 
-    /// The same files; those that are opened are noted there.
+    /// These files, with a log of those that are opened.
     pub fn with_log(self, log: FileLog) -> Self {
         Self { log, ..self }
     }
@@ -104,12 +104,12 @@ impl Files {
         &self.progress
     }
 
-    /// Whether there is anything of this name, on disk or in the program.
+    /// True where anything has this name, on disk or in the program.
     pub fn exists(&self, path: &Path) -> bool {
         self.is_file(path) || path.exists()
     }
 
-    /// Whether there is such a regular file, on disk or in the program.
+    /// True of such a regular file, on disk or in the program.
     pub fn is_file(&self, path: &Path) -> bool {
         embedded(path).is_some() || path.is_file()
     }

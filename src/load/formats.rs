@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// What is read as a scene.
+/// Formats that are read as scenes.
 pub const SCENES: &str = "scene files (.toml), models (.obj, .ply), glTF (.gltf, .glb) and Mitsuba scenes (.xml)";
 /// The endings of models' names, as a sentence has them.
 pub const MODEL_ENDINGS: &str = ".obj, .ply or .ply.gz";
@@ -36,12 +36,12 @@ const UNREAD_PICTURES: [(&[&str], &str, &str); 2] = [
     (&["tx", "rat"], "a tiled texture", "`oiiotool TEXTURE -o texture.exr` (openimageio-tools) makes an EXR of it"),
 ];
 
-/// What a file of another format is, and what to do with it.
+/// The format of a file that is not a scene, and advice on using it.
 pub fn advice(path: &Path) -> Option<(&'static str, &'static str)> {
     of_ending(path, MODELS.iter().chain([&READ_PICTURES]).chain(&UNREAD_PICTURES))
 }
 
-/// What to do with a picture in a format that is not read.
+/// Advice on a picture in a format that is not read.
 pub fn unread_picture(path: &Path) -> Option<&'static str> {
     of_ending(path, UNREAD_PICTURES.iter()).map(|(_, advice)| advice)
 }

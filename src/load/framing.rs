@@ -79,7 +79,7 @@ fn add_lights(scene: &mut Scene, rectangle: Rectangle) {
     }));
 }
 
-/// Where ground, light and camera stand.
+/// Ground, light and camera around a model.
 pub struct Stage {
     /// Infinite, so that the horizon is level wherever the camera stands.
     pub ground: Plane,
@@ -149,7 +149,7 @@ pub fn light_by(scene: &mut Scene, map: &Path, Access { files, strict }: Access)
     Ok(())
 }
 
-/// As near as the model fits into the picture, whose width is `aspect` times its height.
+/// A camera as near as the model fits into the picture, whose width is `aspect` times its height.
 fn camera(points: &[DVec3], (center, radius): (DVec3, f64), elevation: f64, aspect: f64) -> Camera {
     let (sine, cosine) = elevation.to_radians().sin_cos();
     let (azimuth_sine, azimuth_cosine) = AZIMUTH.to_radians().sin_cos();

@@ -47,7 +47,7 @@ pub struct EmbeddedFile {
     pub bytes: Arc<[u8]>,
 }
 
-/// Where the bytes of a picture are.
+/// Source of the bytes of a picture.
 #[derive(Debug, Clone)]
 pub enum PictureSource {
     File(PathBuf),
@@ -102,9 +102,9 @@ impl Hash for PictureSource {
 #[derive(Debug)]
 pub struct Picture {
     pub image: ImageData,
-    /// It holds floating-point numbers, else integers of so many bits.
+    /// Bits of an integer; None: floating-point numbers.
     pub integer_bits: Option<u16>,
-    /// What was changed in it, in words.
+    /// Repairs of the picture, in words.
     pub change: Option<String>,
     /// Properties that its header states and nothing uses, in sentences without the file's name.
     pub notes: Vec<String>,
@@ -158,12 +158,12 @@ impl Pictures {
         &self.files
     }
 
-    /// As [`read_image`], out of this budget.
+    /// [`read_image`] within this budget.
     pub fn read_file(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
         self.read(&PictureSource::File(path.to_owned()), color_space)
     }
 
-    /// The same of a picture in a file or within one.
+    /// Reads a picture from a file, or from within one.
     pub fn read(&self, source: &PictureSource, color_space: Option<ColorSpace>) -> Result<Picture, String> {
         let file = PictureFile::open(self.open(source)?, source.name(), color_space)?;
         let integer_bits = match &file {
@@ -352,7 +352,7 @@ mod tests {
         let read = |path: &Path| pictures.read_file(path, None).map(|picture| picture.image.texels.len());
         let refusal = read(&paths[2]).unwrap_err();
         assert!(refusal.contains("3000 x 3000") && refusal.contains("275 MiB"), "{refusal}");
-        // What was refused takes no room.
+        // Refused pictures take no memory.
         assert_eq!((read(&paths[0]), read(&paths[1])), (Ok(10_000), Ok(10_000)));
         assert_eq!(pictures.kept.load(Ordering::Relaxed), 10_000 * (4 + 8));
         assert!(read(&paths[1]).is_err());

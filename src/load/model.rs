@@ -1,4 +1,4 @@
-//! What files of models have in common.
+//! Types that the readers of model files share.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -39,7 +39,7 @@ pub struct ModelFile {
     pub face_groups: Option<Vec<u32>>,
     /// Numbers of vertices and faces, where they were asked for, of formats that have one part.
     pub attributes: Vec<MeshAttribute>,
-    /// What could not be taken as written, in sentences.
+    /// Deviations from the file, in sentences.
     pub warnings: Vec<String>,
     /// Missing and wrong things that have something else in their place, and in which file each of them is.
     pub substitutes: Vec<(PathBuf, Substitute)>,
@@ -48,7 +48,7 @@ pub struct ModelFile {
 /// Numbers of a mesh beside positions, normals and texture coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshAttribute {
-    /// As `color`.
+    /// Name of the attribute, as `color`.
     pub name: String,
     /// One for each face; else one for each vertex.
     pub of_faces: bool,

@@ -6,7 +6,7 @@
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 
-/// What a polygon is cut into.
+/// The triangles of a polygon.
 pub struct Triangles {
     /// Counter-clockwise about the polygon's normal.
     pub triangles: Vec<[usize; 3]>,
@@ -52,7 +52,8 @@ fn project(corners: &[DVec3]) -> Option<Vec<DVec2>> {
     Some(local.iter().map(|corner| DVec2::new(corner.dot(u), corner.dot(v))).collect())
 }
 
-/// Whether every triangle of a fan about the first corner is turned as the polygon is, and the fan is not wound around that corner.
+/// True where every triangle of a fan about the first corner is turned as the polygon is, and the fan is not
+/// wound around that corner.
 fn fan_is_right(corners: &[DVec2]) -> bool {
     let mut angle = 0.0;
     for pair in corners[1..].windows(2) {

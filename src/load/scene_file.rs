@@ -19,7 +19,7 @@ pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, Sce
     load_toml(text, name, folder, Access::default())
 }
 
-/// As [`load_toml_str`], with this access to other files.
+/// [`load_toml_str`] with this access to other files.
 pub fn load_toml(text: &str, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {
     let document = Document::new(name, text);
     let mut file: SceneFile = document.read_whole()?;
@@ -49,7 +49,7 @@ pub fn load_model(
     resolve_model(path, smooth, materials, access)
 }
 
-/// What imports say of themselves.
+/// Reports of the imports.
 #[derive(Default)]
 struct Imported {
     report: ImportReport,

@@ -1,4 +1,4 @@
-//! Where scenes come from: a file, a model, a name.
+//! Sources of scenes: a file, a model, a name.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use super::{encoding, file, formats, framing, import_file, memory, presets, scen
 use crate::input;
 use crate::scene::Scene;
 
-/// What a person named as the scene.
+/// The scene that a person named.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SceneSource {
     /// A scene that is part of the program, by its name.
@@ -94,7 +94,7 @@ impl SceneSource {
         }
     }
 
-    /// It comes without camera and light.
+    /// True of a model, which has neither camera nor light.
     pub fn is_model(&self) -> bool {
         matches!(self, Self::Model(_))
     }
@@ -121,7 +121,8 @@ fn load_model(path: &Path, view: &ModelView, access: Access) -> Result<Scene, Sc
     scene_file::load_model(path, view.smooth, Some((material, text, Path::new(""))), access)
 }
 
-/// As many bytes as can be parsed in the memory that is free: the tree of a text takes a hundred times as much at worst.
+/// Size of the largest scene file that can be parsed in the free memory: the tree of a text takes a hundred
+/// times as much at worst.
 fn most_scene_bytes() -> u64 {
     MOST_SCENE_BYTES.min(memory::available() / 100)
 }
@@ -142,7 +143,7 @@ pub fn load(written: Option<&str>) -> Result<Scene, SceneError> {
     load_with(written.map(OsStr::new), &LoadOptions::default())
 }
 
-/// As [`load`], with `-` for the standard input.
+/// [`load`], with `-` for the standard input.
 pub fn load_with(written: Option<&OsStr>, options: &LoadOptions) -> Result<Scene, SceneError> {
     SceneSource::parse(written)?.load(options)
 }

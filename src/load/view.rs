@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// What a person may say of it; nothing of it: a three-quarter view on a grey ground.
+/// The view of a model; by default a three-quarter view on a grey ground.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ModelView {
     /// The axis of the model's file that points up.
@@ -15,7 +15,7 @@ pub struct ModelView {
     pub environment: Option<PathBuf>,
     /// The name of a preset, or a `.toml` file whose last material is taken, for the whole model.
     pub material: Option<String>,
-    /// Whether normals are interpolated; None: as the file says.
+    /// Interpolation of normals; None: the file decides.
     pub smooth: Option<bool>,
     pub no_ground: bool,
     /// Width and height of the picture, if it is not the default one: the model fills it.

@@ -1,4 +1,4 @@
-//! What belongs to a primitive besides its three points.
+//! Attributes of a primitive besides its three points.
 
 use glam::{Vec2, Vec3};
 

@@ -15,7 +15,7 @@ pub struct Part {
     pub material: MaterialId,
     pub constant: f64,
     pub factors: Vec<PackedBlendWeight>,
-    /// It or a blend that it is in scatters nothing on the back.
+    /// True where the part, or a blend around it, scatters nothing on the back.
     pub front_only: bool,
 }
 

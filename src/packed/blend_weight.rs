@@ -1,4 +1,4 @@
-//! What decides the weights of a blend, as the device reads it.
+//! Weights of a blend, as the device reads them.
 
 use super::constants::NONE;
 use super::texture::mention;
@@ -6,7 +6,7 @@ use crate::scene::{BlendWeight, Channel};
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
 shared_kinds! {
-    /// What decides a weight.
+    /// The quantity that decides a weight.
     pub(super) enum WeightKind {
         Constant = 0 as WEIGHT_CONSTANT,
         Facing = 1 as WEIGHT_FACING,
@@ -38,7 +38,7 @@ pub fn constants() -> Constants {
     [WeightKind::constants(), flags()].concat()
 }
 
-/// What decides a weight, 16 bytes.
+/// The weight of a blend, 16 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedBlendWeight {
@@ -93,17 +93,17 @@ impl PackedBlendWeight {
         if reversed { Self { kind_and_flags: packed.kind_and_flags ^ REVERSED, ..packed } } else { packed }
     }
 
-    /// It depends on the angle from which the surface is seen.
+    /// True where the weight depends on the angle from which the surface is seen.
     pub(super) fn is_by_angle(&self) -> bool {
         self.is_one_of(&[WeightKind::Facing, WeightKind::FresnelSchlick, WeightKind::FresnelExact])
     }
 
-    /// It depends on the side from which the surface is seen.
+    /// True where the weight depends on the side from which the surface is seen.
     pub(super) fn is_by_side(&self) -> bool {
         self.is_one_of(&[WeightKind::Front])
     }
 
-    /// It depends on what sees the surface: the camera, or something else.
+    /// True where the weight depends on the viewer of the surface: the camera, or something else.
     pub(super) fn is_by_viewer(&self) -> bool {
         self.is_one_of(&[WeightKind::Camera])
     }

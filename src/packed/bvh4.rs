@@ -1,7 +1,7 @@
 //! A four-wide bounding volume hierarchy with 8-bit boxes, 48 bytes a node, made from obvhs's binary one.
 //!
-//! What a traversal step costs on software Vulkan is the number of words it loads, so four children's boxes are quantised to bytes
-//! on a [grid](super::grid) of the node's own.
+//! The cost of a traversal step on software Vulkan is the number of words it loads, so four children's boxes
+//! are quantised to bytes on a [grid](super::grid) of the node's own.
 
 use obvhs::bvh2::Bvh2;
 
@@ -9,7 +9,7 @@ use super::grid::{Box3, Grid};
 use super::widening::Widening;
 use crate::shader::shared::shared_constants;
 
-/// What stands in a node's place for a child.
+/// A child of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Child {
     /// Index of a node.
@@ -41,7 +41,7 @@ pub struct Node {
 }
 
 impl Node {
-    /// What its children are, in the order of their places.
+    /// The children, in the order of their slots.
     pub fn children(&self) -> Vec<Child> {
         let flags = self.exponents_and_flags >> 24;
         let mut inner = self.first_child as usize;

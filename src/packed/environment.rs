@@ -30,15 +30,16 @@ pub struct PackedEnvironment {
     pub mean_luminance: f64,
     /// Words of the view, which its shader reads; of a constant one, its radiance.
     pub words: [DVec4; 3],
-    /// The same from everywhere: BSDF sampling finds it without a shadow ray.
+    /// True where radiance is equal in all directions: BSDF sampling finds it without a shadow ray.
     pub is_constant: bool,
-    /// What compiles its shader; None: a constant one needs none.
+    /// The switch that compiles its shader; None: a constant one needs none.
     pub switch: Option<&'static str>,
     pub map: Option<PackedMap>,
 }
 
 impl PackedEnvironment {
-    /// What is no constant is compiled by `switch`. A map is appended to the texels; a black one leaves nothing.
+    /// A light that is not constant is compiled by `switch`. A map is appended to the texels; a black one
+    /// leaves nothing.
     ///
     /// # Errors
     /// [`PackError::TooManyTexels`] where 32 bits cannot number them.

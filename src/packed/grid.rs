@@ -24,7 +24,7 @@ impl Box3 {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Whether all of `other` is inside.
+    /// True where all of `other` is inside.
     pub fn contains(&self, other: &Self) -> bool {
         self.low.cmple(other.low).all() && self.high.cmpge(other.high).all()
     }
@@ -36,7 +36,7 @@ impl From<&Aabb> for Box3 {
     }
 }
 
-/// Where a node's lines are: origin + line · 2^exponent.
+/// The grid of a node's children: a line lies at origin + line · 2^exponent.
 #[derive(Debug, Clone, Copy)]
 pub struct Grid {
     origin: Vec3,
@@ -60,7 +60,7 @@ impl Grid {
         grid
     }
 
-    /// As it was packed.
+    /// The grid with these packed words.
     pub fn unpack(origin: [u32; 3], exponents: u32) -> Self {
         let exponent = |axis: u32| (exponents >> (8 * axis) & 0xff) as i32 - 127;
         Self { origin: Vec3::from(origin.map(f32::from_bits)), exponents: [exponent(0), exponent(1), exponent(2)] }

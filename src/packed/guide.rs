@@ -1,4 +1,5 @@
-//! What kernels know of the table that guides paths ([`crate::sampling::guide`]), and of the grid that it begins with ([`crate::sampling::cell_grid`]).
+//! Constants by which kernels read the table that guides paths ([`crate::sampling::guide`]), and the grid
+//! that it begins with ([`crate::sampling::cell_grid`]).
 
 use crate::sampling::cell_grid;
 use crate::sampling::guide::table;

@@ -27,10 +27,10 @@ impl Traversal {
 #[derive(Debug, Clone, Default)]
 pub struct Hierarchy {
     pub traversal: Traversal,
-    /// As the device reads them. Node 0 is the root; it has no children where there is nothing to bound. Children come after their parents.
-    /// Empty with ray queries.
+    /// The nodes, in the device's layout. Node 0 is the root; it has no children where there is nothing to
+    /// bound. Children come after their parents. Empty with ray queries.
     pub nodes: Vec<bvh4::Node>,
-    /// Where the trees of groups begin among the nodes, one behind the other and behind the scene's own.
+    /// First node of each group's tree; the trees follow each other behind the scene's own.
     pub roots: Vec<u32>,
     /// With ray queries: boxes around what is no triangle, of which the device makes its own structure.
     pub boxes: Vec<ShapeBox>,
@@ -51,7 +51,7 @@ impl Hierarchy {
         size_of_val(&self.nodes[..]).next_power_of_two()
     }
 
-    /// What a device builds a structure of its own from.
+    /// The input from which a device builds a structure of its own.
     pub fn of_boxes(boxes: Vec<ShapeBox>, primitive_count: u32) -> Self {
         Self { traversal: Traversal::RayQuery, boxes, stack_size: 1, primitive_count, ..Self::default() }
     }

@@ -32,7 +32,8 @@ pub struct WorldGroup {
 pub struct WorldInstance {
     pub group: usize,
     pub map: DAffine3,
-    /// As those of primitives: of the scene, in the end packed. None: the group's own.
+    /// Material of all primitives; a number of the scene, in the end of the packed materials. None: the
+    /// group's own.
     pub material: Option<MaterialId>,
     /// Index of its motion, or NONE, and the first word of it.
     pub motion: u32,

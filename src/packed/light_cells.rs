@@ -1,4 +1,4 @@
-//! What kernels know of the table by which lights are chosen in cells ([`crate::sampling::light_cells`]).
+//! Constants by which kernels read the table of lights in cells ([`crate::sampling::light_cells`]).
 
 use crate::sampling::light_cells::table;
 use crate::shader::shared::shared_constants;

@@ -54,7 +54,7 @@ shared_constants!(flags {
     pub(super) const EMITS_TWO_SIDED: u32 = 2;
     /// Some part of the blend emits.
     pub(super) const PARTS_EMIT: u32 = 4;
-    /// It is, or some part of the blend is, a surface that is not there.
+    /// The material, or some part of the blend, is a null surface.
     pub(super) const LETS_THROUGH: u32 = 8;
     /// The back scatters nothing.
     pub(super) const FRONT_ONLY: u32 = 16;
@@ -87,7 +87,7 @@ pub struct PackedMaterial {
     pub color1: [f32; 3],
     pub ior: f32,
     pub emission: [f32; 3],
-    /// What the two sides do: emit, or scatter nothing.
+    /// Flags of the two sides: which emit, and which scatter nothing.
     pub emission_flags: u32,
     pub color0_texture: u32,
     pub emission_texture: u32,
@@ -133,15 +133,15 @@ const ALBEDO_ENTRIES: usize = (material::ALBEDO_ROWS * material::ALBEDO_COLUMNS)
 /// The first entries of tables of albedos among further parameters; None: no material looks it up.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct AlbedoPlaces {
-    /// Of microfacets with separable masking.
+    /// Microfacets with separable masking.
     pub separable: Option<usize>,
-    /// Of microfacets with height-correlated masking.
+    /// Microfacets with height-correlated masking.
     pub height_correlated: Option<usize>,
     pub sheen: Option<usize>,
 }
 
 impl AlbedoPlaces {
-    /// Those that a material looks up are there, within so many entries.
+    /// True where the tables that a material looks up are there, within so many entries.
     pub(super) fn serve(&self, material: &PackedMaterial, length: usize) -> bool {
         let is_there = |place: Option<usize>| place.is_some_and(|first| first + ALBEDO_ENTRIES <= length);
         let facets = if material.has_form(material::SEPARABLE_MASKING) { self.separable } else { self.height_correlated };
@@ -156,9 +156,9 @@ pub struct PackedMaterials {
     pub materials: Vec<PackedMaterial>,
     /// Which of the scene's materials each one is.
     pub scene_ids: Vec<MaterialId>,
-    /// What lobes have beyond the parameters that most have, in runs.
+    /// Parameters of lobes beyond those that most lobes have, in runs.
     pub further: Vec<PackedParameter>,
-    /// Where tables of albedos stand among those.
+    /// Indices of the albedo tables among the further parameters.
     pub albedos: AlbedoPlaces,
     /// The extinction of each medium, and 0; that of number 1 is the first.
     pub media: Vec<[f32; 4]>,
@@ -285,7 +285,7 @@ impl PackedMaterials {
         packed
     }
 
-    /// Where each of the scene's materials stands; [`NONE`] where it is left out.
+    /// Index of each of the scene's materials; [`NONE`] where it is left out.
     pub fn places(&self, scene: &Scene) -> Vec<u32> {
         let mut places = vec![NONE; scene.materials.len()];
         for (place, &id) in self.scene_ids.iter().enumerate() {
@@ -425,7 +425,7 @@ impl PackedMaterial {
         self.emission_flags & LETS_THROUGH != 0
     }
 
-    /// It, or some part of it, emits.
+    /// True where the material, or some part of it, emits.
     pub fn emits(&self) -> bool {
         self.emission_flags & (EMITS | PARTS_EMIT) != 0
     }
@@ -455,14 +455,14 @@ impl PackedMaterial {
         self.emission_flags & FRONT_ONLY != 0
     }
 
-    /// The same of the roughness.
+    /// True where the roughness is used.
     pub fn uses_roughness(&self) -> bool {
         self.roughness != 0.0 || self.roughness_texture != NONE
     }
 }
 
-/// What a material sends out by itself, each part with the share of it that a light's power counts: the weight of a constant
-/// weight, one half of any other's.
+/// Emission of a material on its own, each part with the share of it that a light's power counts: the weight
+/// of a constant weight, one half of any other's.
 pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> DVec3) -> DVec3 {
     let mut sum = DVec3::ZERO;
     let mut to_visit = vec![(id, 1.0)];

@@ -56,7 +56,7 @@ impl PackedMotion {
         shape.motion.as_ref().map(|motion| Self::about(motion, shape.origin(), shutter))
     }
 
-    /// Of what stands about `origin`.
+    /// The motion of geometry given about `origin`.
     pub fn about(motion: &Motion, origin: DVec3, shutter: [f64; 2]) -> Self {
         let shares = shutter.map(|time| motion.share(time));
         let steps = motion.steps.iter().map(|&step| PackedStep::new(step, shares)).collect();
@@ -72,7 +72,7 @@ impl PackedMotion {
         Self { origin, steps, maps }
     }
 
-    /// Of an instance relative to its place, from which `pivot` is what it moves about.
+    /// The motion of an instance relative to its transform at rest, about `pivot`.
     pub fn of_instance(motion: &Motion, pivot: DVec3, shutter: [f64; 2]) -> Self {
         let about_place = Self::about(motion, DVec3::ZERO, shutter);
         if pivot == DVec3::ZERO {
@@ -104,14 +104,14 @@ impl PackedMotion {
     /// can leave the straight line between two of them, h²/8 times the largest second derivative.
     pub fn swept(&self, primitive: &WorldPrimitive) -> Option<(Vec3, Vec3)> {
         let double = |(low, high): (Vec3, Vec3)| [low.as_dvec3(), high.as_dvec3()];
-        // What is bounded at rest is so in motion.
+        // A primitive that is bounded at rest is bounded in motion.
         let moved =
             |map: &DAffine3| primitive.geometry.moved(map).bounds().map_or([DVec3::INFINITY, DVec3::NEG_INFINITY], double);
         let (low, high) = self.swept_by(double(primitive.bounds()?), &moved);
         Some(outward(low, high))
     }
 
-    /// The same of anything, by its bounds at rest and where a map takes them.
+    /// Bounds of moving geometry, from its bounds at rest and the bounds of its image under a map.
     pub fn swept_by(&self, [low, high]: [DVec3; 2], moved: &dyn Fn(&DAffine3) -> [DVec3; 2]) -> (DVec3, DVec3) {
         let radius = (low - self.origin).abs().max((high - self.origin).abs()).length();
         let (second, farthest) = bend(&self.steps, radius);

@@ -42,7 +42,7 @@ shared_constants!(constants {
     pub const PRIMITIVE_RECORD_WORDS: u32 = (size_of::<Primitive>() / 16) as u32;
     /// Words of the record of a triangle's attributes.
     pub const ATTRIBUTE_RECORD_WORDS: u32 = (size_of::<TriangleAttributes>() / 16) as u32;
-    /// What stands in the place of the kind of an instance, whose number stands in place of the material.
+    /// Kind of a primitive that is an instance, whose number stands in place of the material.
     pub(super) const KIND_INSTANCE: u32 = 7;
     /// Flag beside the kind of a primitive that moves.
     const PRIMITIVE_MOVES: u32 = 1 << 31;

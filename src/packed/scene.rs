@@ -59,7 +59,7 @@ impl PackedScene {
     /// Packs a scene for kernels that walk a bounding volume hierarchy.
     ///
     /// # Errors
-    /// As [`PackedScene::for_traversal`].
+    /// Those of [`PackedScene::for_traversal`].
     pub fn new(scene: &Scene) -> Result<Self, PackError> {
         Self::for_traversal(scene, Traversal::Bvh)
     }
@@ -72,10 +72,11 @@ impl PackedScene {
         Self::for_frame(scene, traversal, &mut KeptTrees::default())
     }
 
-    /// The same, with the trees that were built for an earlier frame of the scene, where they fit; they are replaced by those of this one.
+    /// Packs a frame of an animated scene. Trees that were built for an earlier frame are used where they
+    /// fit; those of this frame replace them.
     ///
     /// # Errors
-    /// As [`PackedScene::for_traversal`].
+    /// Those of [`PackedScene::for_traversal`].
     pub fn for_frame(scene: &Scene, traversal: Traversal, kept: &mut KeptTrees) -> Result<Self, PackError> {
         for shape in &scene.shapes {
             let fail = |(_, message)| PackError::Motion { shape: shape.label.clone(), message };

@@ -14,7 +14,7 @@ use crate::scene::{
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
 shared_kinds! {
-    /// What a texture is.
+    /// The kind of a texture.
     pub enum PackedTextureKind {
         Image = 0 as TEXTURE_IMAGE,
         Checker = 1 as TEXTURE_CHECKER,
@@ -40,27 +40,27 @@ shared_constants!(flags {
     const TEXTURE_NEAREST: u32 = 1 << 10;
     /// Likewise: each block of 2 × 2 texels is a triangle.
     const TEXTURE_TRIANGLES: u32 = 1 << 17;
-    /// Of any kind: a normal map that is this texture holds heights.
+    /// Flag of any kind: a normal map that is this texture holds heights.
     pub(super) const TEXTURE_HEIGHTS: u32 = 1 << 18;
-    /// Of any kind: what the normals that it bends reflect is shadowed by the surface.
+    /// Flag of any kind: reflection at its mapped normals is multiplied by the shadowing term.
     pub(super) const TEXTURE_SHADOWS: u32 = 1 << 19;
-    /// Of any kind, beside the flag before: normals that it bends away from the viewer are mirrored.
+    /// Flag of any kind, beside the one before: mapped normals that point away from the viewer are mirrored.
     pub(super) const TEXTURE_MIRRORS: u32 = 1 << 20;
-    /// Of any kind: it lies by the second texture coordinates.
+    /// Flag of any kind: it is looked up by the second texture coordinates.
     pub(super) const TEXTURE_BY_SECOND_UVS: u32 = 1 << 21;
     /// Likewise, beside that: directions of a normal map follow the first ones.
     pub(super) const TEXTURE_BENDS_BY_FIRST_UVS: u32 = 1 << 24;
     /// Bits of the way of wrapping along u, and of that along v.
     pub(super) const WRAP_SHIFT: u32 = 8;
     pub(super) const WRAP_V_SHIFT: u32 = 22;
-    /// Where an image's format stands, and the flag of floating-point texels that have alpha.
+    /// Bit from which on an image's format stands, and the flag of floating-point texels that have alpha.
     pub(super) const FORMAT_SHIFT: u32 = 11;
     pub(super) const FLOAT_ALPHA: u32 = 1 << 13;
-    /// Where the number of the channel stands that counts, from 1; 0: the colour counts.
+    /// Bit from which on the number of the channel in use stands, from 1; 0: all of the colour is used.
     pub(super) const CHANNEL_SHIFT: u32 = 14;
 });
 
-/// Of an image, beside its kind.
+/// Flags of an image, beside its kind.
 pub(super) const IMAGE_FLAGS: u32 = TEXTURE_NEAREST
     | TEXTURE_TRIANGLES
     | 3 << WRAP_SHIFT
@@ -81,9 +81,9 @@ pub struct PackedTexture {
     /// Kind in bits 0 to 7; of an image, bits 8 and 9: 0 repeat, 1 clamp, 2 mirror along u, bits 22 and 23 along v, bit 10: nearest, bits 11 and 12: its [`TexelFormat`],
     /// bit 13: floating-point texels have alpha, from bit 14 on the channel, and bit 17: triangles.
     pub kind_and_flags: u32,
-    /// Of an image: index of its first word in the texels. Of noise: its seed.
+    /// Index of an image's first word in the texels, or seed of noise.
     pub first_texel_or_seed: u32,
-    /// Of an image: its width. Of Perlin noise: the number of octaves.
+    /// Width of an image, or number of octaves of Perlin noise.
     pub width_or_octaves: u32,
     pub height: u32,
     pub scale: [f32; 2],
@@ -91,9 +91,9 @@ pub struct PackedTexture {
     /// Colour a, and what a normal map that is this texture is multiplied by.
     pub a: [f32; 4],
     pub b: [f32; 4],
-    /// Of the rotation, before the offset and after the scale.
+    /// Cosine and sine of the rotation, which comes before the offset and after the scale.
     pub cosine_sine: [f32; 2],
-    /// Of an image of integers: index of the word among the texels from which on the values of its codes stand.
+    /// Index in the texels of the first value of an integer image's codes.
     pub first_value: u32,
     /// One more than the place of the texture by which it is multiplied; 0: by none.
     pub times: u32,
@@ -107,7 +107,8 @@ pub struct PackedTextures {
     images: Vec<Arc<ImageData>>,
     /// Words of all images together.
     image_words: usize,
-    /// What stands behind them: what integers in images stand for, then a map and how directions to it are drawn.
+    /// Words behind the records: values of the integers in images, then the environment map and its
+    /// distribution.
     pub words: Vec<u32>,
 }
 
@@ -224,9 +225,9 @@ impl PackedTextures {
 #[derive(Default)]
 struct Packing {
     packed: PackedTextures,
-    /// Where images stand that several textures have, by their address.
+    /// First word of images that several textures share, by their address.
     first_words: HashMap<*const ImageData, u32>,
-    /// What integers stand for, of each texture that is an image of integers.
+    /// Values of the integers, of each texture that is an image of integers.
     codes: Vec<(usize, Code)>,
 }
 
@@ -330,7 +331,7 @@ impl Packing {
         })
     }
 
-    /// Of an image, which is added where no texture had it before.
+    /// First word of an image, which is added where no texture had it before.
     fn first_word(&mut self, image: &Arc<ImageData>) -> Result<u32, PackError> {
         if let Some(&known) = self.first_words.get(&Arc::as_ptr(image)) {
             return Ok(known);
@@ -383,7 +384,7 @@ impl PackedTexture {
         self.kind_and_flags & 255
     }
 
-    /// Of an image, as a number of [`TexelFormat`].
+    /// Format of an image, as a number of [`TexelFormat`].
     pub fn format(&self) -> u32 {
         self.kind_and_flags >> FORMAT_SHIFT & 3
     }
@@ -393,7 +394,7 @@ impl PackedTexture {
         self.kind_and_flags >> CHANNEL_SHIFT & 7
     }
 
-    /// Of an image: words of a texel.
+    /// Words of a texel of an image.
     pub fn words_of_texel(&self) -> u32 {
         match self.format() {
             format if format == TexelFormat::Bytes as u32 => 1,
@@ -402,7 +403,7 @@ impl PackedTexture {
         }
     }
 
-    /// Of an image: how many values its integers have; 0 where it has none.
+    /// Number of values that an image's integers have; 0 where it has none.
     pub fn values(&self) -> u32 {
         match self.format() {
             format if format == TexelFormat::Bytes as u32 => 1 << 8,

@@ -74,7 +74,7 @@ pub fn build(world: &WorldGeometry, traversal: Traversal, kept: &mut KeptTrees) 
     Ok((hierarchy, order))
 }
 
-/// What stands in a place of the array of primitives.
+/// The content of a slot in the array of primitives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Slot {
     /// By their indices in the world.

@@ -22,7 +22,7 @@ pub struct View {
     pub lens_u: [f32; 4],
     /// Likewise upward; rotation of a polygon in turns.
     pub lens_v: [f32; 4],
-    /// What the shader of the light from outside the scene reads; of a constant one, its radiance.
+    /// Words that the shader of the light from outside the scene reads; its radiance where it is constant.
     pub environment: [[f32; 4]; 3],
     /// Inverse cumulative distribution of the filter, piece by piece.
     pub filter_curve: [[f32; 4]; CURVE_PIECES],

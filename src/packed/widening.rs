@@ -7,13 +7,14 @@ use crate::binary_tree::depth::top_down;
 
 /// Places for children in a node.
 const PLACES: usize = 4;
-/// What testing a primitive costs, where a visit to a node costs 1: about what packets of rays on software devices take.
+/// Cost of testing a primitive, where a visit to a node costs 1: about that of packets of rays on software
+/// devices.
 const PRIMITIVE_COST: f64 = 0.6;
 
-/// What is best below a node of the binary tree.
+/// The best layout below a node of the binary tree.
 #[derive(Debug, Clone, Copy, Default)]
 struct Plan {
-    /// What the least is that rays cost below it, where it takes up to 1, 2, 3 or 4 places of the node above.
+    /// Least cost of rays below it, where it takes up to 1, 2, 3 or 4 places of the node above.
     costs: [f64; PLACES],
     primitives: u32,
     /// In one place, it is a leaf.
@@ -55,7 +56,7 @@ impl<'a> Widening<'a> {
     fn shares(&self, node: usize, places: usize) -> (f64, [usize; 2]) {
         let first = self.binary.nodes[node].first_index as usize;
         let cost = |[left, right]: [usize; 2]| self.plans[first].costs[left - 1] + self.plans[first + 1].costs[right - 1];
-        // What fewer places do as well is among the costs of more.
+        // A layout with fewer places is among the candidates for more.
         let ways = (1..places).map(|left| [left, places - left]).map(|shares| (cost(shares), shares));
         ways.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, [1, 1]))
     }
@@ -128,7 +129,7 @@ mod tests {
         binary_tree::build(&boxes, &BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() })
     }
 
-    /// What rays cost below a node that takes so many places, by trying every way.
+    /// Cost of rays below a node that takes so many places, by trying every layout.
     fn least(widening: &Widening<'_>, node: usize, places: usize, most: u32) -> f64 {
         let area = widening.area(node);
         let primitives = f64::from(widening.plans[node].primitives);
@@ -142,7 +143,7 @@ mod tests {
         (2..=places).map(shared).fold(alone, f64::min)
     }
 
-    /// What rays cost below a node as it is laid out, and how many primitives its leaves hold.
+    /// Cost of rays below a node in its layout, and the number of primitives in its leaves.
     fn laid_out(widening: &Widening<'_>, node: usize) -> (f64, usize) {
         if let Some(leaf) = widening.leaf(node) {
             return (widening.area(node) * PRIMITIVE_COST * leaf.len() as f64, leaf.len());

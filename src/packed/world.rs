@@ -22,13 +22,14 @@ pub struct WorldGeometry {
     pub attributes: Vec<TriangleAttributes>,
     /// Windows that directions to the environment are sampled through; rays do not meet them.
     pub portals: Vec<WorldPrimitive>,
-    /// Of the shapes that move, and the same as the device reads them.
+    /// Motions of the shapes that move, and their words in the device's layout.
     pub motions: Vec<PackedMotion>,
     pub motion_words: Vec<[f32; 4]>,
     /// Meshes that are stored once, and where they stand.
     pub groups: Vec<WorldGroup>,
     pub instances: Vec<WorldInstance>,
-    /// Of a frame: each shape with keyframes in the pose in which its tree is built ([`Scene::first_poses`]).
+    /// Poses in a frame: each shape with keyframes in the pose in which its tree is built
+    /// ([`Scene::first_poses`]).
     pub posed: Option<BTreeMap<usize, Pose>>,
     /// Behind the attributes of every primitive stand others whose texture coordinates are its second ones, or the same.
     pub second_uvs: bool,
@@ -45,7 +46,7 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
             let primitive = WorldPrimitive { shape: index, ..WorldPrimitive::new(geometry, shape.face_material(face)) };
             world.add(scene, primitive, attributes, second.get(face));
         });
-        // What no ray meets, a shape of `pass` or a mesh without faces, need not move.
+        // Geometry that no ray meets, a shape of `pass` or a mesh without faces, need not move.
         let met = world.primitives.len() > first;
         if let Some(motion) = PackedMotion::new(shape, scene.camera.shutter).filter(|_| met) {
             world.set_in_motion(first, motion);
@@ -66,7 +67,7 @@ fn uses_second_uvs(scene: &Scene) -> bool {
     scene.textures.iter().any(|texture| texture.by_second_uvs) && shapes.any(has_second)
 }
 
-/// What rays meet of a shape, turned and scaled like this.
+/// The primitives of a shape, turned and scaled by `pose`.
 fn in_pose(scene: &Scene, shape: usize, pose: DMat3) -> Pose {
     let unevenness = unevenness(scene.shapes[shape].transform.to_affine().matrix3 * pose.inverse());
     let steps = vec![TransformStep::Matrix(DAffine3::from_mat3(pose))];
@@ -83,7 +84,7 @@ fn in_pose(scene: &Scene, shape: usize, pose: DMat3) -> Pose {
 }
 
 impl WorldGeometry {
-    /// What its surfaces are made of.
+    /// Materials of its surfaces.
     pub fn materials(&self) -> BTreeSet<MaterialId> {
         let of_groups = self.groups.iter().flat_map(|group| &group.primitives);
         let of_primitives = self.primitives.iter().chain(of_groups).map(|primitive| primitive.material);

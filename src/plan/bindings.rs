@@ -3,7 +3,8 @@
 use crate::shader::shared::shared_kinds;
 
 shared_kinds! {
-    /// What a kernel binds, all in group 0. Chunks of an array beyond its first take numbers from 400 on ([`super::chunks`]).
+    /// The bindings of kernels, all in group 0. Chunks of an array beyond its first take numbers from 400 on
+    /// ([`super::chunks`]).
     pub enum Binding {
         /// [`super::parameters::PassParameters`].
         Pass = 0 as BINDING_PASS,

@@ -1,4 +1,4 @@
-//! What is chosen between, and the numbers that decide.
+//! The alternatives of a plan, and the numbers that decide between them.
 
 use crate::renderer::state::MOST_SAMPLES_PER_SWEEP;
 
@@ -7,7 +7,7 @@ pub(super) const MOST_STACK_REGISTERS: u32 = 16;
 /// Samples of one pixel in one pass: as many as a sweep may have.
 pub const MAX_SAMPLES_PER_PASS: u32 = MOST_SAMPLES_PER_SWEEP;
 
-/// Where the geometry lives.
+/// The form in which kernels have the geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GeometryPlacement {
     /// Every primitive is code with constant coordinates; there is no hierarchy.
@@ -28,7 +28,7 @@ pub enum StageMode {
 /// Bytes of film per pixel of a band: sum and compensation.
 pub const FILM_BYTES: u64 = 2 * 16;
 
-/// Where the film's sums live.
+/// The storage of the film's sums.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilmStorage {
     /// rgba32float storage textures, where the device can read and write them.

@@ -19,7 +19,7 @@ const MAX_CHUNKS: u32 = 100;
 /// Storage buffers that a stage may bind besides the scene's: of paths, queues, film, statistics.
 const OTHER_BUFFERS: u32 = 4;
 
-/// What shaders have to know of an array of records (`shaders/geometry/records.wgsl`).
+/// Names by which shaders know an array of records (`shaders/geometry/records.wgsl`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RecordArray {
     /// For people.
@@ -34,7 +34,7 @@ pub struct RecordArray {
     pub load: &'static str,
     /// The function that loads one word of a record.
     pub load_word: &'static str,
-    /// Of the first chunk.
+    /// Binding of the first chunk.
     pub binding: u32,
     pub switch: &'static str,
     /// Generated where the array is cut.
@@ -171,7 +171,7 @@ impl Chunks {
 }
 
 impl Chunks {
-    /// The same where a record is a single number.
+    /// Variant of `wgsl` for records that are single numbers.
     fn wgsl_of_numbers(&self) -> String {
         let RecordArray { name, word, load_word, .. } = self.array;
         let records = self.chunk_bytes / self.array.record_bytes();

@@ -1,4 +1,4 @@
-//! What the plan decided, and why: what `gpt check` and `--stats` tell.
+//! Decisions of the plan with their reasons, as `gpt check` and `--stats` print them.
 
 use super::choices::{FilmStorage, GeometryPlacement, StageMode};
 use super::chunks::Chunks;
@@ -19,11 +19,11 @@ const ASKED_FOR: &str = "asked for";
 /// Edges by which paths end, or Russian roulette may end them, where one kernel traces whole paths.
 const LONGEST_FUSED_PATH: u32 = 1024;
 
-/// Where geometry lives, and why.
+/// The placement of geometry, and its reason.
 pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (GeometryPlacement, String) {
     let count = packed.primitives.len();
     match options.traversal {
-        // What moves is no constant.
+        // Moving geometry is not constant.
         _ if packed.moves() => (GeometryPlacement::Hierarchy, "something moves, and is no constant".into()),
         _ if !packed.instances.is_empty() => (GeometryPlacement::Hierarchy, "instances are no constants".into()),
         _ if packed.hierarchy.primitive_count == 0 => (GeometryPlacement::Unrolled, "a hierarchy would hold nothing".into()),
@@ -44,7 +44,7 @@ const MOST_FUSED_FEATURES: usize = 34;
 const QUEUED_LIGHT_SAMPLES: u32 = 4;
 const QUEUED_PATHS: u32 = 1 << 20;
 
-/// What of a scene decides how its stages run on hardware.
+/// Properties of a scene that decide how its stages run on hardware.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Needs {
     /// Switches that it turns on.
@@ -87,13 +87,14 @@ pub(super) fn stages(
     (stages, because)
 }
 
-/// Whether neither the depth nor roulette ends paths within some thousand edges. A kernel that traces whole paths could then run for minutes.
+/// True where neither the depth nor roulette ends paths within some thousand edges. A kernel that traces
+/// whole paths could then run for minutes.
 fn paths_may_not_end(render: &RenderSettings) -> bool {
     let ends = |edge: u32| (1..=LONGEST_FUSED_PATH).contains(&edge);
     !ends(render.max_depth) && !render.first_roulette(false).is_some_and(ends)
 }
 
-/// Where the film of a picture of this size lives, and why.
+/// The storage of the film of a picture of this size, and its reason.
 ///
 /// # Errors
 /// [`PlanError::DoesNotFit`] where textures are asked for that the device does not have.

@@ -8,7 +8,7 @@ pub enum PlanError {
     /// Needs and limits are part of the message.
     #[error("{0}")]
     DoesNotFit(String),
-    /// What is asked for contradicts itself: a fault of this program.
+    /// The request contradicts itself: a fault of this program.
     #[error("{0}")]
     Internal(String),
 }

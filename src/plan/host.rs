@@ -21,22 +21,23 @@ const TRIANGLE_BYTES: u64 = 350;
 const INSTANCE_BYTES: u64 = 350;
 /// Bytes for each of a picture's: as it is decoded, and as it is packed.
 const PICTURE_FACTOR: u64 = 2;
-/// Of each pixel: sums of a film on the CPU, or of one on a device and what is read of it. A software device's film is in the host's memory.
+/// Bytes per pixel of the film's sums: on the CPU; on a device, with the copy that is read back. A software
+/// device's film is in the host's memory.
 const FILM_BYTES: [u64; 2] = [36, 64];
-/// Of each pixel of rows on their way to files.
+/// Bytes per pixel of rows on their way to files.
 const BAND_BYTES: u64 = 24;
 /// Pixels on their way to files at a time, at most.
 const BAND_PIXELS: u64 = 1 << 20;
-/// Of each pixel, of samples that follow the noise and of an error to reach: means, doublings and streams.
+/// Bytes per pixel for adaptive sampling, and for a target error: means, doublings and streams.
 const ADAPTIVE_BYTES: u64 = 64;
 const TARGET_BYTES: u64 = 36;
-/// Of each pixel that tells the error, and how many do at most.
+/// Bytes per pixel that takes part in the estimate of the error, and the most such pixels.
 const STREAM_BYTES: u64 = 128;
 const STREAM_PIXELS: u64 = 1 << 18;
-/// Of each pixel, of a state that is being written.
+/// Bytes per pixel of a checkpoint that is being written.
 const STATE_BYTES: u64 = 36;
 
-/// What decides it beside the scene.
+/// Settings beside the scene on which the host's memory depends.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct HostNeeds {
     /// Pixels of the picture, or of the region that is rendered.

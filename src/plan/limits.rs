@@ -1,4 +1,4 @@
-//! What the plan has to know of a device.
+//! Limits of a device that the plan has to know.
 
 use super::choices::{FILM_BYTES, FilmStorage};
 use super::error::PlanError;
@@ -11,12 +11,12 @@ const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
 /// Paths in flight: a software device's fit its caches; on hardware the last vertices of a pass, to which few paths come, still fill the card.
 const SOFTWARE_PATHS: u64 = 1 << 18;
 const HARDWARE_PATHS: u64 = 1 << 21;
-/// Where a device has no memory for more.
+/// Least number of paths in flight, where a device has no memory for more.
 const FEWEST_PATHS: u32 = 1 << 18;
 
 /// Pixels of a band where the device has no memory for more, which take 32 MiB.
 const FEWEST_FILM_PIXELS: u64 = 1 << 20;
-/// Where pixels are listed, a path's state has 24 bits for its pixel.
+/// Most pixels of a film whose pixels are listed: a path's state has 24 bits for its pixel.
 const MOST_LISTED_PIXELS: u64 = 1 << 24;
 
 /// Limits in bytes unless the name says otherwise.
@@ -25,7 +25,7 @@ pub struct DeviceLimits {
     pub max_storage_binding: u64,
     pub max_uniform_binding: u32,
     pub max_buffer: u64,
-    /// Of an array that one binding holds.
+    /// Bytes of an array that one binding can have.
     pub max_array: u64,
     /// Paths in flight: enough to fill the device, few enough for its caches and for the largest binding.
     pub path_capacity: u32,
@@ -39,19 +39,19 @@ pub struct DeviceLimits {
     pub read_write_rgba32float: bool,
     /// The device is the CPU in disguise: its memory is the machine's, and its caches reward small working sets.
     pub software: bool,
-    /// Of a software device: how many threads share a dispatch; 1 of others.
+    /// Threads that share a dispatch on a software device; 1 on others.
     pub threads: u32,
     /// Invocations of a subgroup can exchange values, however many they are.
     pub subgroups: bool,
     /// Invocations of a subgroup, where all subgroups have as many and can exchange values.
     pub subgroup_size: Option<u32>,
-    /// What acceleration structures can hold, where kernels can ask them.
+    /// Limits of acceleration structures, where kernels can use them.
     pub ray_queries: Option<RayQueryLimits>,
-    /// Whether plans use them unasked.
+    /// Use of ray queries where no option asks for them.
     pub ray_query_default: RayQueryDefault,
 }
 
-/// Whether ray queries are used unasked.
+/// Use of ray queries where no option asks for them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RayQueryDefault {
     /// Another way is asked for, there are none, or the device is a software one, which follows them more slowly than it walks nodes.
@@ -71,7 +71,7 @@ pub struct RayQueryLimits {
 }
 
 impl Default for DeviceLimits {
-    /// What WebGPU guarantees.
+    /// The limits that WebGPU guarantees.
     fn default() -> Self {
         Self {
             max_storage_binding: 128 << 20,
@@ -122,7 +122,8 @@ impl DeviceLimits {
         u64::from(self.path_capacity).min(binding / state_bytes).min(by_shadow_rays) as u32
     }
 
-    /// The same, for a device that turned out to have no memory for a film of this size or for so many paths; None where fewer would not help.
+    /// Lower limits for a device that turned out to have no memory for a film of this size or for so many
+    /// paths; None where lower ones would not help.
     pub fn with_less_memory(&self, [width, height]: [u32; 2]) -> Option<Self> {
         let is_large = u64::from(width) * u64::from(height) > FEWEST_FILM_PIXELS && self.film_pixels > FEWEST_FILM_PIXELS;
         (is_large || self.path_capacity > FEWEST_PATHS).then(|| Self {
@@ -143,12 +144,12 @@ impl DeviceLimits {
         ((most_pixels / u64::from(width)) as u32).clamp(1, rows_of_storage).min(height)
     }
 
-    /// Whether textures can hold rows of a film of this size.
+    /// True where textures can hold rows of a film of this size.
     pub fn film_fits_textures(&self, [width, _]: [u32; 2]) -> bool {
         self.read_write_rgba32float && width <= self.max_texture_side
     }
 
-    /// Where the film is kept: in textures, unless they cannot hold it or buffers hold more of it.
+    /// The storage of the film: textures, unless they cannot hold it or buffers hold more of it.
     pub fn film_storage(&self, size: [u32; 2], pixels_are_listed: bool) -> FilmStorage {
         let rows = |film| self.band_rows(size, film, pixels_are_listed);
         if self.film_fits_textures(size) && rows(FilmStorage::Texture) >= rows(FilmStorage::Buffer) {

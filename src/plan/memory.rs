@@ -25,7 +25,7 @@ pub const ATTRIBUTE_BYTES: u64 = size_of::<TriangleAttributes>() as u64;
 /// takes while it builds comes on top. Lavapipe takes 104 for a triangle.
 pub const ACCELERATION_BYTES: u64 = 128;
 
-/// What the arrays are called that can be cut into chunks.
+/// Names of the arrays that can be cut into chunks.
 pub const PRIMITIVES: &str = "primitives";
 pub const NODES: &str = "hierarchy";
 pub const ATTRIBUTES: &str = "normals and texture coordinates";
@@ -44,10 +44,10 @@ pub const TEXELS: &str = "texels";
 pub(super) const FILM_SUM: &str = "film sum";
 pub(super) const FILM_COMPENSATION: &str = "film compensation";
 
-/// What materials, lights and textures are called together.
+/// Name of materials, lights and textures together.
 pub const TABLES: &str = "tables";
 
-/// What the device builds where ray queries find hits.
+/// Name of the structure that the device builds for ray queries.
 pub const ACCELERATION: &str = "acceleration structure";
 pub(super) const ESTIMATED_ACCELERATION: &str = "acceleration structure by estimate";
 
@@ -58,7 +58,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Of the array of that name; 0 where there is none.
+    /// Bytes of the array with that name; 0 where there is none.
     pub fn bytes(&self, name: &str) -> u64 {
         self.arrays.iter().find(|(array, _)| *array == name).map_or(0, |(_, bytes)| *bytes)
     }

@@ -1,4 +1,4 @@
-//! What a scene needs of the device, and what is skipped.
+//! The plan: resources that a scene needs of the device, and work that is skipped.
 //!
 //! The plan looks at a packed scene and the device's limits, and decides where geometry lives, which stages run, how many paths are in
 //! flight, and which parts of the shaders are compiled at all. `gpt check --plan` prints it.

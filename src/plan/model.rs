@@ -27,7 +27,8 @@ pub struct Plan {
     pub uniform_tables: bool,
     /// So are the hierarchy's nodes.
     pub uniform_nodes: bool,
-    /// Those of the arrays of primitives, nodes and attributes that stand in storage buffers, cut where one binding cannot hold them.
+    /// The arrays of primitives, nodes and attributes in storage buffers, cut where one binding cannot hold
+    /// them.
     pub chunks: Vec<Chunks>,
     pub stages: StageMode,
     pub film: FilmStorage,
@@ -77,12 +78,12 @@ impl Plan {
         Some(self.traversal).filter(|_| self.geometry == GeometryPlacement::Hierarchy)
     }
 
-    /// Whether kernels walk nodes of the bounding volume hierarchy.
+    /// True where kernels traverse nodes of the bounding volume hierarchy.
     pub(crate) fn has_nodes(&self) -> bool {
         self.traversal_in_use() == Some(Traversal::Bvh)
     }
 
-    /// Whether any shadow ray is ever traced.
+    /// True where any shadow ray is ever traced.
     pub fn samples_lights(&self) -> bool {
         self.switches.enabled.contains("LIGHTS")
     }

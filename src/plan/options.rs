@@ -20,15 +20,15 @@ pub enum TraversalChoice {
     RayQuery,
 }
 
-/// What is asked of a plan. The default leaves every choice to it.
+/// Requests to a plan. The default leaves every choice to it.
 #[derive(Debug, Clone, Default)]
 pub struct PlanOptions {
     /// With ray queries the device must have been opened for them ([`crate::gpu::Device::open_for`]).
     pub traversal: TraversalChoice,
-    /// Where ray queries are used unasked.
+    /// Drivers with which ray queries are used by default.
     pub verified: VerifiedDrivers,
     pub stages: Option<StageMode>,
-    /// Where the film's sums live; textures are refused where the device cannot read and write them.
+    /// Storage of the film's sums; textures are refused where the device cannot read and write them.
     pub film: Option<FilmStorage>,
     /// Let a batch leave pixels out ([`crate::renderer::Batch::selection`]).
     pub pixel_list: bool,
@@ -36,25 +36,26 @@ pub struct PlanOptions {
     pub most_film_pixels: Option<u64>,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
     pub trace: bool,
-    /// What is made in place of the picture, from a scene that is [made ready for it](crate::reference::layer::layer_scene).
+    /// Layer that is rendered in place of the picture, from a scene that is [made ready for
+    /// it](crate::reference::layer::layer_scene).
     pub layer: Option<KernelLayer>,
     /// Keep naga's bounds checks and loop bounds in the kernels.
     pub checked_shaders: bool,
     /// Switches of parts that are compiled though the scene does not need them, to measure what leaving them out is worth.
     pub compile_in: Vec<&'static str>,
-    /// What one submission may take before the device counts as lost; None: a minute.
+    /// Longest time of one submission before the device counts as lost; None: a minute.
     pub device_timeout: Option<Duration>,
     /// Compute wrongly, so that tests can see whether it is noticed.
     pub fault: Option<Fault>,
 }
 
 impl PlanOptions {
-    /// Whether scenes are packed in one way or another by what the device turns out to be.
+    /// True where the packing of scenes depends on the device that is found.
     pub fn waits_for_device(&self) -> bool {
         self.traversal == TraversalChoice::Auto && !self.verified.is_empty()
     }
 
-    /// Whether plans need ray queries of the device.
+    /// True where plans require ray queries of the device.
     pub fn asks_for_ray_queries(&self) -> bool {
         self.traversal == TraversalChoice::RayQuery
     }

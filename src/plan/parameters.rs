@@ -1,13 +1,13 @@
-//! What kernels are given beside the scene.
+//! Parameters of kernels beside the scene.
 
 use crate::shader::shared::shared_struct;
 
 shared_struct! {
 /// One pass: a run of consecutive pixels of the band, each with the same samples.
 pub struct PassParameters {
-    /// Of the pass, over the whole film; where pixels are listed, of the band.
+    /// First pixel of the pass, over the whole film; where pixels are listed, first pixel of the band.
     pub first_pixel: u32,
-    /// Of the pass; where pixels are listed, in the list of the band's pixels.
+    /// First pixel of the pass within the band; where pixels are listed, in the list of the band's pixels.
     pub first_pixel_in_band: u32,
     pub pixel_count: u32,
     /// Absolute index.

@@ -15,7 +15,7 @@ shared_constants!(constants {
     /// rays of a vertex.
     pub const COUNTS: u32 = 5;
     pub const COUNT_OF_SHADOW_RAYS: u32 = 4;
-    // Where the workgroups of a stage stand among the dispatch sizes, three words each.
+    // Index of each stage's workgroup counts among the dispatch sizes, three words each.
     pub const SHADE_SIZE: u32 = 0;
     pub const EXTEND_SIZE: u32 = 3;
     pub const CONNECT_SIZE: u32 = 6;

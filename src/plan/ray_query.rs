@@ -1,4 +1,4 @@
-//! What ray queries can see, and what they cannot.
+//! Limits of ray queries: the scenes that they can and cannot trace.
 
 use super::error::PlanError;
 use super::limits::{DeviceLimits, RayQueryLimits};
@@ -22,7 +22,7 @@ pub(super) fn check(packed: &PackedScene, limits: &DeviceLimits) -> Result<(), P
     let held = u64::from(packed.hierarchy.primitive_count);
     let boxes = packed.hierarchy.boxes.len() as u64;
     let triangles = held - boxes;
-    // Of triangles, vertices are counted.
+    // Limits count the vertices of triangles.
     if 3 * triangles > u64::from(max_primitives) || boxes > u64::from(max_primitives) {
         return refuse(format!(
             "it has {triangles} triangles and {boxes} other shapes, and an {ACCELERATION} holds {} or {max_primitives}",

@@ -16,19 +16,21 @@ pub enum When {
     PassEnd,
 }
 
-/// What a stage has an invocation for; a workgroup has [`super::path_state::WORKGROUP`] of them.
+/// The items over which a stage is dispatched, one invocation each; a workgroup has
+/// [`super::path_state::WORKGROUP`] of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Over {
     /// The paths that a pass begins with.
     Paths,
     /// The pixels of a pass.
     Pixels,
-    /// The same; where [invocations take them](Plan::pixel_takers), a workgroup for each thread of the device.
+    /// The same pixels; where [invocations take them](Plan::pixel_takers), a workgroup for each thread of the
+    /// device.
     PixelsThatAreTaken,
     /// Nothing: one workgroup of one invocation.
     Once,
-    /// What waits in a queue. The device knows how much, and wrote the number of workgroups at this word of the dispatch sizes. The first
-    /// vertex's queues hold all paths of the pass.
+    /// Entries of a queue. The device knows how many there are, and wrote the number of workgroups at this
+    /// word of the dispatch sizes. The first vertex's queues hold all paths of the pass.
     Queue { size: u32, rays: bool },
 }
 
@@ -46,7 +48,7 @@ pub struct Stage {
     pub reads: &'static [Binding],
     /// State that it writes.
     pub writes: &'static [Binding],
-    /// Whether a plan of its mode has it.
+    /// True for the plans, among those of its mode, that have the stage.
     needed: fn(&Plan) -> bool,
 }
 

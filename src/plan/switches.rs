@@ -20,7 +20,7 @@ use crate::shader::Switches;
 /// Stacks of a lane have a multiple of so many entries.
 const STACK_STEP: u32 = 8;
 
-/// What the scene needs, whatever device it is rendered on.
+/// Switches that the scene needs on every device.
 pub fn of_scene(scene: &Scene, packed: &PackedScene) -> Switches {
     let mut switches = Switches::default();
     let render = &scene.render;
@@ -157,17 +157,17 @@ fn choose_shapes(packed: &PackedScene, switches: &mut Switches) {
     switches.enable("ONLY_TRIANGLES_IN_HIERARCHY", !held.is_empty() && only_triangles);
 }
 
-/// Whether any surface samples light. Paths of one edge have no vertex to sample it from.
+/// True where any surface samples light. Paths of one edge have no vertex to sample it from.
 pub fn samples_lights(scene: &Scene, packed: &PackedScene) -> bool {
     !packed.lights.is_empty() && scene.render.max_depth != 1
 }
 
-/// Whether lights are chosen by what reaches the place.
+/// True where lights are chosen by the cell of the reference point.
 pub fn chooses_lights_by_cells(scene: &Scene, packed: &PackedScene) -> bool {
     samples_lights(scene, packed) && !packed.light_cells.is_empty()
 }
 
-/// Whether shadow rays may meet null surfaces, and go on through them.
+/// True where shadow rays may meet null surfaces, and go on through them.
 pub fn shadows_are_transparent(scene: &Scene, packed: &PackedScene) -> bool {
     samples_lights(scene, packed) && packed.materials.has(LobeKind::Null as u32)
 }

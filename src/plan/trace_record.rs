@@ -1,4 +1,4 @@
-//! What a kernel that follows one path writes down of each vertex.
+//! The record that a kernel which follows one path writes of each vertex.
 
 use crate::shader::shared::shared_constants;
 
@@ -7,7 +7,7 @@ shared_constants!(constants {
     pub const TRACED_VERTICES: u32 = 64;
     /// vec4s of a vertex; `shaders/shading/path/trace.wgsl` says what they hold.
     pub const TRACE_WORDS: u32 = 10;
-    // What is known of a vertex, a bit each.
+    // Facts about a vertex, a bit each.
     pub const TRACED_VERTEX: u32 = 1;
     pub const TRACED_LIGHT: u32 = 2;
     pub const TRACED_LIGHT_SEEN: u32 = 4;

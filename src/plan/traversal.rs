@@ -20,13 +20,13 @@ impl DeviceLimits {
 }
 
 impl PlanOptions {
-    /// What a scene is packed for on a device with these limits; None: one that is not known yet, which [`PlanOptions::waits_for_device`] rules out
-    /// where it matters.
+    /// The traversal for which a scene is packed on a device with these limits; None: the device is not known
+    /// yet, which [`PlanOptions::waits_for_device`] rules out where it matters.
     pub fn packed_traversal(&self, scene: &Scene, limits: Option<&DeviceLimits>) -> Traversal {
         match self.traversal {
             TraversalChoice::RayQuery => Traversal::RayQuery,
             TraversalChoice::Auto if limits.is_some_and(|limits| limits.ray_query_default == RayQueryDefault::Verified) => {
-                // What ray queries cannot see for other reasons is found once the scene is packed.
+                // Other reasons against ray queries are found once the scene is packed.
                 let is_seen = scene.instances.is_empty() && scene.shapes.iter().all(|shape| shape.motion.is_none());
                 if is_seen { Traversal::RayQuery } else { Traversal::Bvh }
             }
@@ -34,14 +34,15 @@ impl PlanOptions {
         }
     }
 
-    /// What is asked instead where a scene that is packed so does not fit: ray queries have bounds of their own, and are given up where nobody has
-    /// asked for them. None where there is nothing to give up.
+    /// The options with which a scene is packed again where this traversal does not fit: ray queries have
+    /// limits of their own, and are given up where nobody has asked for them. None where there is nothing to
+    /// give up.
     pub fn by_nodes_instead_of(&self, traversal: Traversal) -> Option<Self> {
         let unasked = traversal == Traversal::RayQuery && !self.asks_for_ray_queries();
         unasked.then(|| Self { traversal: TraversalChoice::Bvh, ..self.clone() })
     }
 
-    /// Whether a plan for a device with these limits may be made of a scene that is packed so.
+    /// True where a scene packed for this traversal may be planned for a device with these limits.
     pub(super) fn allows(&self, traversal: Traversal, limits: &DeviceLimits) -> bool {
         match self.traversal {
             TraversalChoice::RayQuery => traversal == Traversal::RayQuery,

@@ -7,7 +7,7 @@ use crate::sampling::light_way::LightWay;
 /// One decision, in words.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Decision {
-    /// What is decided, for example `geometry`.
+    /// The subject of the decision, for example `geometry`.
     pub about: &'static str,
     pub choice: String,
     /// The facts of scene and device that led to it.

@@ -48,7 +48,7 @@ pub fn shape(track: &ShapeTrack, nodes: &Names) -> String {
     taken_along("node", track.node, nodes) + &track.track.as_ref().map_or_else(String::new, transform)
 }
 
-/// Those of the camera.
+/// Keyframes of the camera.
 pub fn camera(track: &CameraTrack, projection: Projection, nodes: &Names) -> String {
     let opening = match projection {
         Projection::Perspective { .. } => "vfov",
@@ -65,7 +65,7 @@ pub fn camera(track: &CameraTrack, projection: Projection, nodes: &Names) -> Str
     taken_along("node", track.node, nodes) + &keyframes(&written, track.position.interpolation)
 }
 
-/// Those of a light.
+/// Keyframes of a light.
 pub fn light(track: &LightTrack, light: &Light, nodes: &Names) -> String {
     let strength = strength_key(light);
     let written = vec![

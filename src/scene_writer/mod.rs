@@ -26,7 +26,7 @@ pub use written::WrittenScene;
 /// other files are named by their paths relative to it.
 ///
 /// # Errors
-/// What no scene file can say, in a sentence.
+/// Properties of the scene that no scene file can express, in a sentence.
 pub fn as_scene_file(scene: &Scene, path: &Path) -> Result<WrittenScene, OutputError> {
     let of_keyframes = |motion: &Motion| motion.rest != 0.0 || motion.reached != 1.0;
     if scene.shapes.iter().filter_map(|shape| shape.motion.as_ref()).any(of_keyframes) {

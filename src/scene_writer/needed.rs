@@ -65,7 +65,8 @@ fn marked(marks: &[bool]) -> impl Iterator<Item = usize> + '_ {
     marks.iter().enumerate().filter_map(|(id, mark)| mark.then_some(id))
 }
 
-/// What the scene puts in the place of materials of the shape's file, if the shape has its file's own ones.
+/// Materials that the scene puts in the place of those of the shape's file, if the shape uses its file's own
+/// ones.
 fn brings_materials<'s>(scene: &'s Scene, shape: &Shape) -> Option<&'s [(String, String)]> {
     let Geometry::Mesh(mesh) = &shape.geometry else { return None };
     named_file(scene, mesh).filter(|source| source.own_materials).map(|source| source.replaced.as_slice())

@@ -131,7 +131,7 @@ fn meshes_that_come_from_no_file_come_back() {
     assert_ne!(digest(&round_trip(&other)), digest(&made));
 }
 
-/// What a model brings along is left in its file, which the scene file names; the picture is the same, bit for bit.
+/// Content of a model stays in its file, which the scene file names; the picture is the same, bit for bit.
 #[test]
 fn a_models_file_is_named_and_its_materials_can_be_replaced() {
     let folder = tempdir().unwrap();
@@ -185,6 +185,6 @@ fn keyframes_come_back() {
     }
     // The control: frames differ.
     assert_ne!(at(&read, 3.5), at(&read, 20.0));
-    // What a frame is alone, no file says.
+    // A single frame cannot be written to a file.
     assert!(save_scene(&scene.at_frame(2.0).unwrap(), Path::new("frame.toml")).is_err());
 }

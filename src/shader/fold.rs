@@ -51,7 +51,7 @@ fn condition(code: &str) -> Option<&str> {
     code.strip_prefix("if ")?.strip_suffix(" {")
 }
 
-/// What the switches make of a condition; None where it depends on more than they say.
+/// Value of a condition under the switches; None where it depends on more.
 fn value(condition: &str, enabled: &BTreeSet<&'static str>) -> Option<bool> {
     if condition.contains("||") {
         return None;

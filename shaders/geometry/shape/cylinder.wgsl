@@ -4,7 +4,8 @@
 #import geometry/prepared_ray.wgsl
 #import geometry/motion.wgsl
 
-// Where a ray's line crosses the wall: nearer and farther t and height, as on the wall's whole line; `met` where there are crossings.
+// Crossings of a ray's line with the infinite cylinder: t and height of the nearer and of the farther; `met`
+// where there are any.
 struct CylinderCrossings {
     met: bool,
     near: vec2<f32>,
@@ -41,7 +42,7 @@ fn cylinder_crossings(ray: PreparedRay, start: vec3<f32>, axis: vec3<f32>, radia
     return CylinderCrossings(true, vec2<f32>(near, near * rise - below), vec2<f32>(far, far * rise - below));
 }
 
-// Whether a crossing lies ahead and between the ends, which overlap what they meet as quads do.
+// True where a crossing lies ahead and between the ends, which overlap their neighbours as a quad's edges do.
 fn is_on_cylinder(crossing: vec2<f32>) -> bool {
     return crossing.x > 0.0 && crossing.y >= -QUAD_OVERLAP && crossing.y <= 1.0 + QUAD_OVERLAP;
 }

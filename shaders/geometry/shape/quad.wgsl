@@ -15,7 +15,8 @@ fn intersect_quad(ray: PreparedRay, t_max: f32, corner: vec3<f32>, edge_u: vec3<
     return vec3<f32>(select(-1.0, t, inside && t > 0.0 && t < t_max), u, v);
 }
 
-// The same with the plane's constants folded in: `normal` = edge_u x edge_v, `dual_u` and `dual_v` measure along the edges.
+// Variant of `intersect_quad` with the plane's constants folded in: `normal` = edge_u x edge_v, `dual_u` and
+// `dual_v` measure along the edges.
 fn intersect_quad_constant(
     ray: PreparedRay, t_max: f32, corner: vec3<f32>, normal: vec3<f32>, dual_u: vec3<f32>, dual_v: vec3<f32>
 ) -> vec3<f32> {

@@ -1,4 +1,5 @@
-// What the lanes of a subgroup tell each other. Every lane of the subgroup has to take part in these calls.
+// Exchange of values between the lanes of a subgroup. Every lane of the subgroup has to take part in these
+// calls.
 
 // This invocation's place in its subgroup of LANES; to be set before anything else here is called.
 var<private> lane: u32;
@@ -18,7 +19,8 @@ fn from_lane(value: vec4<u32>, other: u32) -> vec4<u32> {
     );
 }
 
-// Of four values, the least that any lane has of value number lane % 4: lanes halve what they look after at each exchange.
+// Least of all lanes' values with number lane % 4, of four: each exchange halves the number of values that a
+// lane handles.
 fn least_of_lanes(values: vec4<u32>) -> u32 {
     let odd = (lane & 1u) != 0u;
     let first = min(select(values.x, values.y, odd), subgroupShuffle(select(values.y, values.x, odd), lane ^ 1u));
@@ -36,7 +38,7 @@ fn lesser(value: u32, distance: u32) -> u32 {
     return min(value, subgroupShuffle(value, lane ^ distance));
 }
 
-// Of how many lanes out of four that stand together the condition holds.
+// Number of lanes, among four neighbours, for which the condition holds.
 fn count_of_four(condition: bool) -> u32 {
     let one = select(0u, 1u, condition);
     let two = one + subgroupShuffle(one, lane ^ 1u);

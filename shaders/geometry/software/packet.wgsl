@@ -168,7 +168,7 @@ fn traverse_together(
     return hit;
 }
 
-// What closest_hit finds, for the rays of all lanes.
+// `closest_hit` for the rays of all lanes.
 fn closest_hit_together(traced: Ray, t_max: f32) -> Hit {
     let ray = prepare_ray(traced);
     var hit = no_hit(t_max);
@@ -177,7 +177,7 @@ fn closest_hit_together(traced: Ray, t_max: f32) -> Hit {
     return traverse_together(ray, safe_inverse(traced.direction), hit, false, &shadow);
 }
 
-// What shadow_transmittance finds, for the rays of all lanes.
+// `shadow_transmittance` for the rays of all lanes.
 fn shadow_transmittance_together(traced: Ray, t_max: f32) -> Spectrum {
     let ray = prepare_ray(traced);
     var shadow = begin_shadow(t_max);

@@ -1,14 +1,15 @@
-// What a packet of rays has still to visit (geometry/software/packet.wgsl). It lies in registers, an entry a lane. What is visited next never is on
-// it: how long a node takes, from its loading to that of the next, is what counts, and the nearest child is known before the others are
-// sorted.
+// The stack of a packet of rays (geometry/software/packet.wgsl): nodes still to visit. It lies in registers,
+// one entry a lane. The next node is never on it: the time from loading one node to loading the next decides
+// the speed, and the nearest child is known before the others are sorted.
 #import geometry/software/lanes.wgsl
 #import geometry/bvh4.wgsl
 
 // Registers that hold the stack.
 const STACK_REGISTERS: u32 = (STACK_SIZE + LANES - 1u) / LANES;
 
-// The same in all lanes, but for the registers: register r of lane l is entry r * LANES + l from the top; FINISHED below the last. They are
-// an array whose every index is a constant once loops are unrolled.
+// All lanes hold equal values except in the registers: register r of lane l is entry r * LANES + l from the
+// top, and FINISHED below the last. The registers are an array so that every index is a constant once loops
+// are unrolled.
 struct PacketStack {
     // The entry to visit next.
     current: u32,
@@ -23,8 +24,9 @@ fn packet_at_root() -> PacketStack {
     return stack;
 }
 
-// Of the entries of lanes 0 to count - 1, that of lane 0, which is `first` as well, is visited next; the others go onto the stack, that of
-// lane 1 on top. With none, what is on top of the stack is next; FINISHED where it is empty.
+// Pushes the entries of lanes 0 to count - 1 and continues with `first`, the entry of lane 0, which is not
+// pushed; lane 1's entry comes to lie on top. With count 0 the top of the stack is next, or FINISHED where
+// the stack is empty.
 fn go_on(stack: ptr<function, PacketStack>, first: u32, entry: u32, count: u32) {
     let top = subgroupShuffle((*stack).registers[0], 0u);
     (*stack).current = select(first, top, count == 0u);

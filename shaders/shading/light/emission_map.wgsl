@@ -7,7 +7,7 @@
 #import geometry/records.wgsl
 #import geometry/motion.wgsl
 
-// Of a light with LIGHT_WARPED.
+// The distribution of the points of a light with LIGHT_WARPED.
 fn light_warp(light: u32) -> Warp {
     let words = bitcast<vec4<u32>>(light_word(light, 4u));
     let width = words.z & 0xffffu;
@@ -54,7 +54,7 @@ fn sphere_band(light: u32, v: f32) -> SphereBand {
     return SphereBand(border * border + (v * rows - row) * area, area * rows);
 }
 
-// The same with a sphere's texture coordinates.
+// `shown_density` by a sphere's texture coordinates, per area.
 fn shown_density_on_sphere(light: u32, uv: vec2<f32>) -> f32 {
     return shown_density(light, uv) / sphere_band(light, uv.y).area;
 }

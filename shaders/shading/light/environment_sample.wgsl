@@ -1,4 +1,4 @@
-// What a direction to the light from outside the scene consists of.
+// A sampled direction to the light from outside the scene.
 #import core/spectrum.wgsl
 
 struct EnvironmentSample {

@@ -1,4 +1,4 @@
-// What every light sample consists of.
+// A light sample.
 #import core/spectrum.wgsl
 
 struct LightSample {

@@ -5,9 +5,9 @@
 #import shading/light/seen_triangle.wgsl
 
 struct SeenPlace {
-    // What the shape's own file draws the point by.
+    // Numbers by which the shape's own file samples the point.
     numbers: vec2<f32>,
-    // In steradians; 0 where the point is drawn by area.
+    // Solid angle, in steradians; 0 where the point is sampled by area.
     solid_angle: f32,
 }
 

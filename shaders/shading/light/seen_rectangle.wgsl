@@ -7,11 +7,11 @@ struct SeenRectangle {
     // Ends of its sides in axes along its edges, the point at their origin.
     low: vec2<f32>,
     high: vec2<f32>,
-    // Of its plane.
+    // Distance of the rectangle's plane.
     distance: f32,
-    // In steradians; 0 where its points are drawn by area.
+    // Solid angle, in steradians; 0 where points are sampled by area.
     solid_angle: f32,
-    // Where the angle that is drawn begins, in turns.
+    // Begin of the sampled angle, in turns.
     first_turns: f32,
 }
 

@@ -8,7 +8,7 @@ struct SeenTriangle {
     to_corner: vec3<f32>,
     // Distances of a, b and c.
     distances: vec3<f32>,
-    // Of half the angle between a and c.
+    // Tangent of half the angle between a and c.
     tangent: f32,
     // 1 + a·b.
     one_and_cosine: f32,
@@ -22,7 +22,7 @@ struct SeenTriangle {
     solid_angle: f32,
 }
 
-// Of an angle whose sine and cosine are these over `length`.
+// Tangent of half the angle with this sine and cosine, both times `length`.
 fn half_angle_tangent(sine: f32, cosine: f32, length: f32) -> f32 {
     let obtuse = cosine < 0.0;
     return select(sine, length - cosine, obtuse) / select(length + cosine, sine, obtuse);

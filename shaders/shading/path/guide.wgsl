@@ -13,7 +13,7 @@
 struct GuideCell {
     // Share of the directions that it draws; 0 where there is no guide.
     share: f32,
-    // Where its bins stand.
+    // Index of the cell's first bin.
     first: u32,
     axis: vec3<f32>,
 }
@@ -24,7 +24,7 @@ fn guide_axis(packed_axis: u32) -> vec3<f32> {
     return octahedron_direction(vec2<f32>(bytes) * GUIDE_AXIS_STEP);
 }
 
-// What is known of a surface whose lobes that scatter in all directions are sampled with this probability.
+// The guide at a surface whose broad lobes are sampled with this probability.
 fn guide_at(surface: Surface, probability: f32) -> GuideCell {
     var cell: GuideCell;
     let begins = vec4<u32>(guide[0], guide[1], guide[2], guide[3]);
@@ -44,7 +44,7 @@ fn guide_at(surface: Surface, probability: f32) -> GuideCell {
     return cell;
 }
 
-// What a surface sends on, on average: all light, or what comes by way of its scattering.
+// Radiance that a surface sends on, on average: all light, or the part that it scatters.
 fn guide_sent_on(cell: GuideCell, all: bool) -> f32 {
     return bitcast<f32>(guide[cell.first + GUIDE_ROWS * GUIDE_COLUMNS + select(0u, 1u, all)]);
 }

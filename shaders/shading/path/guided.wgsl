@@ -20,8 +20,8 @@ fn evaluate_guided(cell: GuideCell, bsdf: Bsdf, surface: Surface, wo: vec3<f32>,
     return BsdfValue(alone.value, shared_pdf(cell, surface, wi, alone.pdf_solid_angle));
 }
 
-// As `scatter`, where a guide takes part. One place of the code evaluates the surface, for drivers that copy what is called to wherever it
-// is called.
+// Variant of `scatter` for guided paths. The surface is evaluated in one place of the code, for drivers that
+// inline every call.
 fn scatter_guided(
     cell: GuideCell, bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {

@@ -1,6 +1,6 @@
 // Faults that are planted to see whether checks notice them (src/plan/fault.rs). Where none is, these functions change nothing.
 
-// What one material returns is multiplied by this: 1 % too much.
+// Factor on the values of one material: 1 % too much.
 fn planted_factor(material: u32) -> f32 {
     if HAS_PLANT_BRDF {
         return select(1.0, 1.01, material == PLANTED_MATERIAL);
@@ -18,7 +18,7 @@ fn planted_ratio(ratio: f32) -> f32 {
     }
 }
 
-// Whether a light gives none when it is sampled.
+// True of the light that contributes nothing when it is sampled.
 fn is_forgotten(light: u32) -> bool {
     if HAS_PLANT_LIGHT {
         return light == PLANTED_LIGHT;

@@ -100,7 +100,7 @@ fn no_shadow_ray() -> ShadowRay {
     return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, BLACK);
 }
 
-// Whether the path may gain anything from it.
+// True where the path may gain anything from the shadow ray.
 fn is_needed(shadow: ShadowRay) -> bool {
     return any(shadow.radiance != BLACK);
 }

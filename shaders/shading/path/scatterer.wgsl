@@ -1,4 +1,5 @@
-// What scatters light at a surface: its BSDF, and the guide where paths are guided; with the shadow that a surface throws on a bent normal.
+// Scattering at a surface: its BSDF, and the guide where paths are guided; with the shadowing term of mapped
+// normals.
 #import shading/material/bsdf.wgsl
 #import shading/material/scattering.wgsl
 #import shading/surface.wgsl

@@ -29,8 +29,8 @@ fn is_blocked_by(shadow: ptr<function, Shadow>, ray: Ray, hit: Hit) -> bool {
     return max_component(transmittance) <= 0.0;
 }
 
-// Takes from the light what surfaces keep that are constants of the code: those that block all of it first, then the others in the ray's order.
-// Whether nothing is left.
+// Removes the light that surfaces block which are constants of the code: opaque ones first, then the others
+// in the ray's order. Returns true where nothing is left.
 fn is_blocked_by_constants(shadow: ptr<function, Shadow>, ray: PreparedRay) -> bool {
     let limit = (*shadow).limit;
     if any_of_constants(ray, limit) {

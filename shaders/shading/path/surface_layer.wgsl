@@ -14,7 +14,7 @@
 // Stands for the value where nothing is met. Its square is not finite: the film counts no such sample.
 const NOTHING_MET: f32 = 3.0e38;
 
-// Whether the layer is of what is seen along the drawn direction.
+// True where the layer belongs to the surface that is seen along the drawn direction.
 fn is_followed(drawn: BsdfSample) -> bool {
     let goes_on = drawn.pdf_solid_angle < 0.0 && max_component(drawn.weight) > 0.0;
     if HAS_LAYER_OF_FIRST_SURFACE {

@@ -40,7 +40,7 @@ fn trace_light(wi: vec3<f32>, pdf: f32, contribution: Spectrum, weight: f32, lig
     traced[5] = vec4<f32>(wi, pdf);
     traced[6] = vec4<f32>(contribution, weight);
     traced[7] = vec4<f32>(bitcast<f32>(light), bsdf_pdf, traced[7].zw);
-    // Of several samples the last is kept.
+    // With several light samples the last is kept.
     traced[3].w = bitcast<f32>(bitcast<u32>(traced[3].w) & ~TRACED_LIGHT_SEEN);
     trace_note(TRACED_LIGHT);
 }

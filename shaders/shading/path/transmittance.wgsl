@@ -1,4 +1,5 @@
-// What a surface lets through of the light that a shadow ray brings: the weight of its null parts. src/reference/emission.rs looks weights up alike.
+// Transmittance of a surface for a shadow ray: the weight of its null lobes. src/reference/emission.rs looks
+// weights up alike.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/prepared_ray.wgsl

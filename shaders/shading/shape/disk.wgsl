@@ -13,7 +13,7 @@ fn disk_point(ray: Ray, hit: Hit, center: vec3<f32>, normal: vec3<f32>, p2: vec3
     return ShapePoint(position, normal, vec2<f32>(hit.u, hit.v), nothing, nothing, abs(center) + abs(position), 0.0, area);
 }
 
-// As a light it is its center and two perpendicular radii.
+// Samples a disk light, given by its center and two perpendicular radii.
 fn sample_disk(center: vec3<f32>, radius_u: vec3<f32>, radius_v: vec3<f32>, u: f32, v: f32) -> ShapePoint {
     let circle = sin_cos_turns(v);
     let r = sqrt(u);

@@ -5,8 +5,9 @@
 #import geometry/prepared_ray.wgsl
 #import shading/shape_point.wgsl
 
-// What a triangle's width adds to the error of its points: a ray that starts in its plane finds it again at a distance of rounding size,
-// and that grows with the triangle. A wide floor at height 0 has no other error to keep rays off it.
+// Contribution of a triangle's width to the error of its points: a ray that starts in its plane finds it
+// again at a distance of rounding size, which grows with the triangle. A wide floor at height 0 has no other
+// error to keep rays off it.
 fn triangle_error(edge_u: vec3<f32>, edge_v: vec3<f32>) -> f32 {
     return 0.125 * POINT_ERROR * max_coordinate(abs(edge_u) + abs(edge_v));
 }

@@ -19,7 +19,7 @@ use crate::scene::Channel;
 #[derive(Debug, Clone)]
 pub struct Rgb<R>(pub DVec3, PhantomData<R>);
 
-/// As [`Rgb`], or `{ texture = "name" }`.
+/// A colour as [`Rgb`], or `{ texture = "name" }`.
 #[derive(Debug, Clone)]
 pub enum Colour<R> {
     Constant(Rgb<R>),
@@ -75,7 +75,7 @@ struct TemperatureTable {
     factor: Option<Rgb<NonNegative>>,
 }
 
-/// The same where a colour is a share of light.
+/// A colour temperature where a colour is a share of light.
 #[derive(JsonSchema)]
 #[schemars(rename = "ShareOfTemperature", deny_unknown_fields)]
 #[allow(dead_code, reason = "it is read as a `TemperatureTable`, and described as this")]
@@ -163,7 +163,7 @@ impl From<ScalarTexture> for TextureReference<Checked<NonNegative>> {
     }
 }
 
-/// What may stand where a colour can: the forms a visitor meets.
+/// The forms of a value in place of a colour, which a visitor meets.
 enum Form<R, T> {
     Number(Checked<R>),
     Triple([Checked<R>; 3]),

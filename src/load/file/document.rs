@@ -20,7 +20,7 @@ pub struct Document<'a> {
     /// How errors call the file.
     pub name: &'a str,
     pub text: &'a str,
-    /// What the text was parsed into, if it was: large texts take long.
+    /// The tree that the text was parsed into, if it was: large texts take long.
     tree: Arc<OnceLock<Node<'a>>>,
 }
 
@@ -34,7 +34,8 @@ impl<'a> Document<'a> {
         reader::read(self.parsed()?).map_err(|mistake| self.translate(mistake))
     }
 
-    /// The same text without its tree, which takes several times the text's memory. It is made again where a mistake is found.
+    /// The document without its tree, which takes several times the text's memory. The tree is made again
+    /// where a mistake is found.
     pub fn without_tree(self) -> Self {
         Self { tree: Arc::default(), ..self }
     }

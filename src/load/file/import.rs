@@ -25,7 +25,7 @@ pub struct ImportEntry {
     /// The imported file's materials, by their names, that materials of this file take the place of.
     #[serde(default)]
     pub materials: BTreeMap<String, Located<String>>,
-    /// What `$key` stands for in a Mitsuba file.
+    /// Values of `$key` in a Mitsuba file.
     #[serde(default)]
     pub define: BTreeMap<String, String>,
 }

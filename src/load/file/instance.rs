@@ -26,7 +26,7 @@ use crate::scene::{Geometry, Group, Instances, Material, MaterialKind, Transform
     { "required": ["instance"], "properties": { "instance": { "minItems": 1 } } },
 ]))]
 pub struct GroupEntry {
-    /// What instances call it.
+    /// Name by which instances refer to the group.
     #[schemars(extend("minLength" = 1))]
     pub name: Located<String>,
     /// Its meshes, each a `[[group.shape]]` of type `mesh` in the group's own space.
@@ -46,9 +46,9 @@ pub struct HeldEntry {
     pub group: Located<String>,
     /// Steps applied in this order, or a matrix; after the places, where there are some.
     pub transform: Option<Located<TransformEntry>>,
-    /// As an `[[instance]]`'s.
+    /// Places, as in `[[instance]]`.
     pub places: Option<Located<Vec<Located<Exactly<Number, 12>>>>>,
-    /// As an `[[instance]]`'s.
+    /// File of places, as in `[[instance]]`.
     #[schemars(extend("pattern" = "\\.([fF]32|[fF]64|[cC][sS][vV]|[tT][xX][tT])$"))]
     pub file: Option<Located<FileOr<[DAffine3]>>>,
     /// A `[[material]]` for all faces, in place of the group's own, where the instance around names none.
@@ -84,7 +84,7 @@ pub struct InstanceEntry {
     pub pivot: Option<Located<Vector>>,
 }
 
-/// Where instances stand, as it is written.
+/// Places of instances, as they are written.
 struct WrittenPlaces<'a> {
     transform: Option<&'a Located<TransformEntry>>,
     places: Option<&'a Located<Vec<Located<Exactly<Number, 12>>>>>,
@@ -163,7 +163,7 @@ impl Resolver<'_> {
         let emits = self.scene.materials_that(|material| material.emission.is_some());
         let lit_groups = self.lit_groups(&emits);
         let are_lit = |part: &Instances| part.material.map_or(lit_groups[part.group], |material| emits[material]);
-        // What gives light becomes shapes, so that no instance emits.
+        // Emitting shapes are added to the scene as shapes, so that no instance emits.
         let none_emits = vec![false; emits.len()];
         let balls = self.scene.balls();
         let mut named = vec![false; names.len()];
@@ -279,7 +279,7 @@ fn in_range(path: &Path, numbers: &[f64]) -> Result<(), SceneError> {
     }
 }
 
-/// Of a matrix of three rows, row by row.
+/// The map with this matrix of three rows, row by row.
 fn affine(rows: [f64; PLACE_NUMBERS]) -> DAffine3 {
     let column = |index: usize| DVec3::new(rows[index], rows[4 + index], rows[8 + index]);
     DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }

@@ -98,14 +98,14 @@ pub struct CameraKeyEntry {
     pub position: Option<Vector>,
     pub look_at: Option<Vector>,
     pub up: Option<Vector>,
-    /// Of a perspective camera.
+    /// Field of view of a perspective camera.
     pub vfov: Option<Located<Checked<FieldOfView>>>,
-    /// Of an orthographic camera.
+    /// Height of an orthographic camera's view.
     pub height: Option<Located<Checked<Positive>>>,
     pub focus_distance: Option<Checked<Positive>>,
 }
 
-/// What of a shape says where it is at frames.
+/// The keys of a shape that state its transform at frames.
 #[derive(Clone, Copy)]
 pub struct WrittenTrack<'a> {
     pub keyframes: Option<&'a Located<Vec<Located<TransformKeyEntry>>>>,
@@ -115,7 +115,7 @@ pub struct WrittenTrack<'a> {
     pub has_motion: bool,
 }
 
-/// What a keyframe of a light states.
+/// The values that a keyframe of a light states.
 pub struct LightKey<'a> {
     pub frame: Option<Number>,
     pub time: Option<Number>,
@@ -123,20 +123,20 @@ pub struct LightKey<'a> {
     pub direction: Option<&'a Located<Vector>>,
     /// Intensity, irradiance or radiance.
     pub strength: Option<DVec3>,
-    /// Of an environment.
+    /// Rotation of an environment.
     pub rotation_degrees: Option<f64>,
 }
 
 /// A keyframe of a light of some type.
 pub trait LightKeyEntry {
-    /// What it may state, in words.
+    /// The keys that it may state, in words.
     const STATES: &'static str;
 
-    /// What it states.
+    /// The values that it states.
     fn key(&self) -> LightKey<'_>;
 }
 
-/// What of a light says what it is at frames.
+/// The keys of a light that state its values at frames.
 #[derive(Clone, Copy)]
 pub struct WrittenLightTrack<'a, K> {
     pub keyframes: Option<&'a Located<Vec<Located<K>>>>,
@@ -201,7 +201,7 @@ pub struct EnvironmentKeyEntry {
     pub frame: Option<Number>,
     /// Seconds after the start.
     pub time: Option<Number>,
-    /// Of an environment with `radiance`, whose `scale` it is multiplied by.
+    /// Radiance of an environment with `radiance`, which its `scale` multiplies.
     pub radiance: Option<Located<Rgb<NonNegative>>>,
     /// Degrees about +Y.
     pub rotate: Option<Number>,

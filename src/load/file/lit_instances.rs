@@ -11,7 +11,7 @@ use crate::scene::{Geometry, Group, Instances, MaterialId, MaterialKind, Mesh, S
 const MOST_TRIANGLES: usize = 20_000_000;
 
 impl Resolver<'_> {
-    /// Of each group, whether some face of it emits.
+    /// True, for each group, where some face of it emits.
     pub(super) fn lit_groups(&self, emits: &[bool]) -> Vec<bool> {
         let is_lit = |group: &Group| group.shapes.iter().flat_map(Shape::materials).any(|id| emits[id]);
         self.scene.groups.iter().map(is_lit).collect()

@@ -15,7 +15,7 @@ const DEEPEST: usize = 64;
 const MOST_INSTANCES: u64 = 1 << 28;
 /// Bytes that an instance takes until it is packed, on the host and on the device.
 const INSTANCE_BYTES: u64 = 512;
-/// The same of one that turns about the origin of a group around its own: its motion is its own as well.
+/// Memory of one that turns about the origin of a group around its own: its motion is its own as well.
 const TURNING_BYTES: u64 = 8192;
 
 /// A group in one place or more of another group.
@@ -27,7 +27,7 @@ pub struct Held {
     pub maps: Vec<DAffine3>,
     /// In place of the held group's own materials.
     pub material: Option<MaterialId>,
-    /// Where the file names the held group.
+    /// Place in the file where the nested group is named.
     pub named_at: Place,
 }
 
@@ -48,7 +48,7 @@ pub struct Groups {
     counts: Vec<u64>,
 }
 
-/// What is wrong with what a group holds, and where that is written.
+/// A mistake in the content of a group, and its place.
 pub type Mistake = (Place, String);
 
 impl Groups {
@@ -67,7 +67,7 @@ impl Groups {
         &self.groups[group].name
     }
 
-    /// Of each group, whether it or one around it is among these.
+    /// True, for each group, where it or a group around it is among `named`.
     pub fn reached_from(&self, named: &[bool]) -> Vec<bool> {
         let mut reached = named.to_vec();
         let mut to_visit: Vec<usize> = (0..reached.len()).filter(|&group| reached[group]).collect();
@@ -86,7 +86,7 @@ impl Groups {
         self.counts[entry.group].saturating_mul(entry.places.len() as u64)
     }
 
-    /// Whether so many instances are possible beside `before` others.
+    /// Checks that so many instances are possible beside `before` others.
     ///
     /// # Errors
     /// In words, that they are too many, or do not fit into memory.
@@ -134,7 +134,7 @@ impl Groups {
     }
 }
 
-/// Whether it matters what its motion is about.
+/// True where the centre of its motion matters.
 fn turns(entry: &Instances) -> bool {
     let steps = entry.motion.iter().flat_map(|motion| &motion.steps);
     steps.into_iter().any(|step| !matches!(step, MotionStep::Translate(_)))
@@ -162,7 +162,7 @@ struct Found {
 }
 
 impl Expansion<'_> {
-    /// As deep as groups lie within each other.
+    /// Adds an instance with all that lie within it; recursion is as deep as groups lie within each other.
     fn add(&mut self, entry: &Instances, group: usize, map: DAffine3, material: Option<MaterialId>, pivot: Option<DVec3>) {
         let groups = self.groups;
         if groups.counts[group] == 0 {
@@ -178,7 +178,8 @@ impl Expansion<'_> {
             self.found[index].places.push(map);
         }
         for held in &groups.groups[group].held {
-            // What is around replaces what is within; what is nothing within stays an opening.
+            // A material of the outer instance replaces the inner one, except that null surfaces stay
+            // openings.
             let within = held.material.filter(|&id| material.is_none() || (self.is_pass)(id)).or(material);
             for own in &held.maps {
                 self.add(entry, held.group, map * *own, within, pivot);
@@ -190,7 +191,8 @@ impl Expansion<'_> {
 /// Counts what groups stand for.
 struct Counter<'a> {
     groups: &'a [FileGroup],
-    /// Of groups that have been visited: what they stand for, and how many groups lie within each other from them on.
+    /// Groups that have been visited: the number of instances that each stands for, and how many groups lie
+    /// within each other from it on.
     known: Vec<Option<(u64, usize)>>,
     /// The groups around the one that is looked at, each in the one before.
     chain: Vec<usize>,
@@ -311,7 +313,7 @@ mod tests {
         assert!(endless.check_count(&entry(0, vec![DAffine3::IDENTITY]), 0).is_err());
         assert!(Groups::new(chain(DEEPEST, 1)).is_ok());
         assert!(Groups::new(chain(1000, 1)).is_err());
-        // Those within first.
+        // Inner groups come first.
         let reversed = (0..1000).map(|index| group(Some(0), if index > 0 { vec![held(index - 1, vec![])] } else { vec![] }));
         let (_, message) = Groups::new(reversed.collect()).expect_err("too deep");
         assert_eq!(message, "groups lie more than 64 deep within each other");

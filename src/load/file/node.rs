@@ -16,9 +16,10 @@ pub struct NodeEntry {
     pub name: Located<String>,
     /// The node that takes this one along.
     pub parent: Option<Located<String>>,
-    /// Where it stands in its parent without a frame: what names it is moved by the change from there.
+    /// Transform in its parent without a frame: objects that name the node are moved by the change from
+    /// there.
     pub transform: Option<Located<TransformEntry>>,
-    /// Where it stands in its parent at frames, in place of `transform`.
+    /// Transforms in its parent at frames, in place of `transform`.
     #[schemars(extend("minItems" = 1))]
     pub keyframes: Option<Located<Vec<Located<TransformKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.

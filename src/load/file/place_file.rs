@@ -31,7 +31,7 @@ impl PlaceFormat {
     /// All numbers of a file, a multiple of [`PLACE_NUMBERS`].
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// A sentence about the mistake in the file.
     pub fn numbers(self, bytes: &[u8]) -> Result<Vec<f64>, String> {
         let numbers: Vec<f64> = match self {
             Self::Single => {

@@ -30,7 +30,7 @@ pub type ImageCache = HashMap<(PictureSource, Option<ColorSpace>), CachedImage>;
 pub struct CachedImage {
     pub image: Arc<ImageData>,
     pub integer_bits: Option<u16>,
-    /// What was changed in it, until it was told.
+    /// Repairs of the picture, until they are reported.
     pub change: Option<String>,
     /// Properties that its header states and nothing uses, until they were told.
     pub notes: Vec<String>,
@@ -45,7 +45,8 @@ impl From<Picture> for CachedImage {
     }
 }
 
-/// What decides how a mesh file is read: the file, `smooth`, and, where it keeps its own materials, which ones are replaced.
+/// Key of a mesh file that has been read: the file, `smooth`, and, where it keeps its own materials, the ones
+/// that are replaced.
 pub type MeshFileKey = (PathBuf, Option<bool>, Option<Vec<(String, MaterialId)>>);
 
 /// A mesh and its material, or that of its first face where faces have their own.
@@ -58,11 +59,11 @@ pub struct LoadedMesh {
 /// A scene in the making.
 pub struct Resolver<'a> {
     pub(super) document: Document<'a>,
-    /// What paths in the file are relative to.
+    /// Folder to which paths in the file are relative.
     pub(super) folder: &'a Path,
     pub(super) pictures: Pictures,
     pub(super) strict: bool,
-    /// What is wrong so far, where reading goes on to find more.
+    /// Mistakes so far; reading goes on to find more.
     pub(super) errors: Vec<SceneError>,
     pub(super) scene: Scene,
     pub(super) texture_names: HashMap<String, TextureId>,
@@ -72,10 +73,10 @@ pub struct Resolver<'a> {
     /// Per texture: an image whose colour space is written to be linear.
     pub(super) linear_textures: Vec<bool>,
     pub(super) mesh_files: HashMap<MeshFileKey, LoadedMesh>,
-    /// Of the materials so far, as far as it was asked: they or a part of them look up a texture.
+    /// True, for each material asked for so far, where it or a part of it looks up a texture.
     textured: Vec<bool>,
     ranges: RefCell<KnownRanges>,
-    /// What bends the mesh that was read last.
+    /// Deformation of the mesh that was read last.
     pub(super) deformation: Option<Deformation>,
     /// The material of faces that name none.
     pub(super) unnamed_material: Option<MaterialId>,
@@ -139,7 +140,7 @@ impl<'a> Resolver<'a> {
     /// Notes that something missing or wrong in a file was replaced.
     ///
     /// # Errors
-    /// The same, where that is not allowed.
+    /// The substitution itself, where it is not allowed.
     pub(super) fn substitute(&mut self, file: &Path, Substitute { line, what }: Substitute) -> Result<(), SceneError> {
         let error = match line {
             Some(line) => SceneError::in_line(show(file), line, what),
@@ -160,7 +161,7 @@ impl<'a> Resolver<'a> {
     /// Notes what a picture's header says that is not used.
     ///
     /// # Errors
-    /// The same, where that is not allowed.
+    /// The note itself, where it is not allowed.
     pub(super) fn name_unused(&mut self, file: &PictureSource, note: &str) -> Result<(), String> {
         if self.strict {
             return Err(format!("{note}; without --strict, this is a warning"));
@@ -199,7 +200,7 @@ impl<'a> Resolver<'a> {
         if self.textured.is_empty() {
             self.textured = self.scene.materials_that(Material::uses_texture);
         }
-        // Those that model files add are made of earlier ones.
+        // Materials that model files add consist of earlier ones.
         while let Some(material) = self.scene.materials.get(self.textured.len()) {
             let of_part = material.parts().iter().any(|&part| self.textured[part]);
             self.textured.push(of_part || material.uses_texture());

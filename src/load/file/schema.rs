@@ -11,7 +11,8 @@ pub fn json_schema() -> &'static str {
     include_str!("../../../scenes/scene.schema.json")
 }
 
-/// The same, made from the types. A test holds the file to it; programs have the text alone, which is a third of what makes it.
+/// The schema, made from the types. A test compares the file with it; programs contain the text alone, which
+/// is a third of the code that makes it.
 pub fn make_json_schema() -> String {
     let mut schema = schema_for!(SceneFile);
     RecursiveTransform(leave_out_null).transform(&mut schema);

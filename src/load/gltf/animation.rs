@@ -118,7 +118,8 @@ impl Importer<'_> {
         Ok(name)
     }
 
-    /// What channels say of nodes. Where several animations move the same part of a node, the first counts.
+    /// Tracks of nodes by the channels of animations. If several animations move one property of a node, the
+    /// first counts.
     fn tracks(&mut self) -> Tracks {
         let mut tracks = Tracks::new();
         for (index, value) in self.root.animations.iter().enumerate() {

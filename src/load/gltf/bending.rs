@@ -18,7 +18,7 @@ use crate::scene::Mesh;
 use crate::scene::animation::{Deformation, Influences, Joint, MorphTarget};
 
 impl Importer<'_> {
-    /// What moves the vertices of a skinned mesh into the world.
+    /// The skin that moves the vertices of a mesh into the world.
     pub fn skinning(&self, skin: usize, world: &[Option<DAffine3>], moving: &MovingNodes) -> Result<Skinning, String> {
         let found = self.root.skins.get(skin).ok_or_else(|| format!("there is no skins[{skin}]"))?;
         let of_skin = |message: String| format!("skins[{skin}]: {message}");
@@ -45,7 +45,8 @@ impl Importer<'_> {
         Ok(Skinning { maps, nodes: found.joints.iter().map(|joint| moving.get(joint).cloned()).collect() })
     }
 
-    /// What bends a primitive whose mesh is `base` before that. Nodes of joints are counted as those of the skin are.
+    /// Deformation of a primitive whose mesh is `base` before that. Nodes of joints are counted as those of
+    /// the skin are.
     pub fn deformation(
         &self,
         primitive: &Primitive,
@@ -56,7 +57,7 @@ impl Importer<'_> {
         let mut deformation = Deformation::default();
         for (index, target) in primitive.targets.iter().enumerate() {
             let rest = weights.get(index).copied().unwrap_or(0.0);
-            // What never counts need not be read, but must be there.
+            // Targets whose weight is always 0 need not be read, but must exist.
             let is_used = rest != 0.0 || bending.track.is_some();
             let list = |name: &str| -> Result<Vec<Vec3>, String> {
                 let offsets = self.triples(target, name).map_err(|message| format!("targets[{index}]: {message}"))?;

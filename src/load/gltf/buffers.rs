@@ -22,7 +22,7 @@ const MOST_DECODED: (u64, u64) = (256, 1 << 28);
 /// Most bytes that packed views take once they are unpacked, for each byte of the files and beside a first amount.
 const MOST_UNPACKED: (u64, u64) = (256, 1 << 20);
 
-/// What the file's buffers hold. Errors are sentences without the file's name.
+/// Contents of the file's buffers. Errors are sentences without the file's name.
 pub struct Buffers<'r> {
     root: &'r Root,
     /// Buffers of one file share its bytes.

@@ -33,11 +33,11 @@ pub struct Importer<'a> {
     pub materials: HashMap<Option<usize>, MadeMaterial>,
     pub textures: HashMap<TextureKey, String>,
     pub pictures: HashMap<usize, FileOr<EmbeddedFile>>,
-    /// Of primitives that nothing of a node bends, by mesh and place in it.
+    /// Primitives that no node deforms, by mesh and index in it.
     pub meshes: HashMap<(usize, usize), MadePrimitive>,
-    /// Of nodes whose morph targets count differently at frames.
+    /// Weights of morph targets at frames, by node.
     pub weight_tracks: HashMap<usize, WeightTrack>,
-    /// Of all shapes, copies counted.
+    /// Triangles of all shapes, copies counted.
     pub triangles: u64,
     /// Places of meshes, by the meshes' index.
     pub places: HashMap<usize, Vec<DAffine3>>,

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-/// What extensions add to an object.
+/// Extensions of an object.
 pub type Extensions = Map<String, Value>;
 
 macro_rules! objects {

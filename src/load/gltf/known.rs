@@ -17,11 +17,11 @@ pub struct Key {
 /// The purpose of a key.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// It changes what is shown, or is reported by whoever reads it.
+    /// The key changes the picture, or its reader reports it.
     Read,
-    /// It says nothing about the picture: names, authors, hints to graphics interfaces.
+    /// The key has no effect on the picture: names, authors, hints to graphics interfaces.
     Aside,
-    /// It is not read; in words, what is done instead.
+    /// The key is not read; in words, the replacement.
     Unread(&'static str),
 }
 

@@ -26,14 +26,14 @@ pub struct Lookup {
     scale: DVec2,
     /// Radians, counter-clockwise where v runs upward.
     rotation: f64,
-    /// Where v runs downward.
+    /// Offset for v that runs downward.
     offset: DVec2,
 }
 
-/// What the lookups of a material have in common.
+/// Properties that the lookups of a material share.
 #[derive(Debug, Clone, Copy)]
 pub struct Lookups {
-    /// Those of the mesh.
+    /// Texture coordinates of the mesh.
     pub coordinates: Coordinates,
 }
 

@@ -1,4 +1,4 @@
-//! What materials, nodes and primitives became, and what bends meshes.
+//! Results of converting materials, nodes and primitives, and deformations of meshes.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::load::file::shape::deformation::DeformationEntry;
 use crate::load::file::value::Located;
 use crate::scene::Mesh;
 
-/// Of a material of a primitive.
+/// A converted material of a primitive.
 #[derive(Debug, Clone)]
 pub struct MadeMaterial {
     pub name: String,
@@ -45,13 +45,13 @@ pub struct Form {
     pub is_outline: bool,
 }
 
-/// What a primitive became.
+/// A converted primitive.
 #[derive(Debug, Clone)]
 pub struct MadePrimitive {
     pub mesh: Arc<Mesh>,
     pub material: String,
     pub triangles: u64,
-    /// Of a mesh that is deformed at frames.
+    /// Deformation of a mesh that changes with frames.
     pub deformation: Option<Box<Located<DeformationEntry>>>,
 }
 
@@ -62,24 +62,24 @@ pub struct WeightTrack {
     pub is_step: bool,
 }
 
-/// Of nodes that are taken along, the name of the node of the scene file that takes them.
+/// Name of the scene file's node that moves each of the nodes that move.
 pub type MovingNodes = HashMap<usize, String>;
 
 /// Joints of a skin.
 pub struct Skinning {
     /// From the mesh's space to the world.
     pub maps: Vec<DAffine3>,
-    /// Of the node of the scene file that takes the joint along.
+    /// The scene file's node that moves each joint.
     pub nodes: Vec<Option<String>>,
 }
 
-/// What bends the mesh of a node.
+/// Deformation of the mesh of a node.
 #[derive(Clone, Copy, Default)]
 pub struct Bending<'b> {
     pub skinning: Option<&'b Skinning>,
-    /// Of morph targets, in place of the mesh's own.
+    /// Weights of morph targets, in place of the mesh's own.
     pub weights: Option<&'b [f64]>,
-    /// The same at frames.
+    /// Weights of morph targets at frames.
     pub track: Option<&'b WeightTrack>,
 }
 

@@ -275,7 +275,7 @@ impl Surface<'_, '_> {
         }
         if !transmission.is(0.0) {
             keys.transmission = Some(transmission.scalar(&place)?);
-            // What has no volume is a wall without thickness.
+            // A surface without volume is a sheet without thickness.
             if self.has_volume() {
                 self.attenuation(&mut keys)?;
             } else {
@@ -354,7 +354,7 @@ impl Surface<'_, '_> {
         transmission > 0.0 && self.number(VOLUME, "thicknessFactor", 0.0) > 0.0
     }
 
-    /// What takes light within a volume. Without a distance, or white, nothing does.
+    /// Attenuation within a volume. Without a distance, or white, there is none.
     fn attenuation(&mut self, keys: &mut principled::Keys) -> Result<(), String> {
         let distance = self.number(VOLUME, "attenuationDistance", f64::INFINITY);
         let colour = self.colour(VOLUME, "attenuationColor").unwrap_or(DVec3::ONE);

@@ -39,9 +39,9 @@ use super::error::{SceneError, show};
 use super::files::{Files, MOST_MODEL_BYTES};
 use super::import::Description;
 
-/// What turns pictures of KTX2 into PNG.
+/// Command that converts KTX2 pictures to PNG.
 const BASIS_COMMAND: &str = "npx @gltf-transform/cli ktxdecompress IN.glb OUT.glb";
-/// What undoes Draco's compression.
+/// Command that undoes Draco's compression.
 const DRACO_COMMAND: &str = "npx @gltf-transform/cli copy IN.glb OUT.glb";
 
 /// Reads a file. `camera` is the name of a camera or of its node, the first one where none is named; `variant` that of a variant of materials.

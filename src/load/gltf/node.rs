@@ -62,12 +62,12 @@ impl Importer<'_> {
         }
         let mut world = vec![None; self.root.nodes.len()];
         placed.iter().for_each(|placed| world[placed.node] = Some(placed.map));
-        // Of each mesh that keeps its form: the nodes that show it, and where.
+        // The nodes that show each undeformed mesh, and their transforms.
         let mut copies: BTreeMap<usize, Vec<Placed>> = BTreeMap::new();
         let mut count = 0;
         for &Placed { node: index, map, .. } in placed.iter().filter(|placed| placed.is_visible) {
             let node = &self.root.nodes[index];
-            // What moves or is bent by itself is a shape of its own.
+            // Meshes that move or are deformed by themselves become shapes of their own.
             let Some(mesh) = node.mesh.filter(|_| self.has_mesh_of_others(index, &moving)) else { continue };
             let maps = self.instances(node).map_err(|message| format!("nodes[{index}]: {message}"))?;
             count += maps.len() as u64;
@@ -272,7 +272,7 @@ impl Importer<'_> {
         Ok(())
     }
 
-    /// Where copies of the node's mesh stand about the node.
+    /// Transforms of the copies of the node's mesh, relative to the node.
     fn instances(&self, node: &Node) -> Result<Vec<DAffine3>, String> {
         const NAME: &str = "EXT_mesh_gpu_instancing";
         let Some(instances) = extension::<Instances>(&node.extensions, NAME)? else { return Ok(vec![DAffine3::IDENTITY]) };

@@ -31,7 +31,7 @@ impl Blocks {
         blocks
     }
 
-    /// The same for a mesh whose own texture coordinates stay: the second ones lead to the blocks.
+    /// Blocks for a mesh whose own texture coordinates stay: the second ones lead to the blocks.
     pub fn beside(mesh: &mut Mesh) -> Self {
         let own = std::mem::take(&mut mesh.uvs);
         let (blocks, uvs) = Self::spread(mesh);

@@ -21,7 +21,7 @@ use crate::scene::{ImportReport, Mesh};
 pub struct Description {
     /// Without a camera where the imported file has none.
     pub file: SceneFile,
-    /// Of meshes that are deformed, by their addresses: what they are without a frame.
+    /// Meshes without deformation of those that are deformed, by their addresses.
     deformed: HashMap<usize, Arc<Mesh>>,
     /// Emitters up to this radiance do not count as lights of the scene.
     least_radiance: f64,
@@ -42,7 +42,7 @@ const MOST_POINTS: usize = 1 << 23;
 /// Triangles that copies beyond the first have together where storing a mesh once is worth its while. A ray pays for the way into an instance.
 const FEWEST_SAVED_TRIANGLES: u64 = 1000;
 
-/// Whether a mesh that stands in so many places had better be stored once.
+/// True where a mesh with so many copies is better stored once.
 pub fn pays_as_instances(copies: usize, triangles: u64) -> bool {
     copies > 1 && (copies as u64 - 1).saturating_mul(triangles) >= FEWEST_SAVED_TRIANGLES
 }
@@ -186,7 +186,7 @@ pub fn map_of(transform: Option<&Located<TransformEntry>>) -> DAffine3 {
     transform.and_then(|transform| transform.value.map()).unwrap_or(DAffine3::IDENTITY)
 }
 
-/// Where the instances of an entry stand.
+/// Transforms of the instances of an entry.
 fn places_of(instance: &InstanceEntry) -> Vec<DAffine3> {
     let all = map_of(instance.transform.as_ref());
     match instance.file.as_ref().map(|file| &file.value) {

@@ -1,4 +1,4 @@
-//! What importers of other programs' scenes share.
+//! Code that importers of other programs' scenes share.
 //!
 //! An importer turns a file into a [`Description`]: the entries of a scene file with what the import changed or left out. It is resolved like
 //! any scene file.

@@ -10,7 +10,7 @@ use super::transform::numbers;
 use crate::load::error::SceneError;
 use crate::load::place::Origin;
 
-/// What a spectrum is of.
+/// The quantity that a spectrum describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     Light,

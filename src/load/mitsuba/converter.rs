@@ -33,7 +33,7 @@ pub struct Converter<'a> {
     pub reader: Reader<'a>,
     pub files: &'a Files,
     pub scene: Description,
-    /// What all of the scene is turned by, so that its environment stands upright.
+    /// Rotation of the whole scene that makes its environment upright.
     pub world: DAffine3,
     /// By the plugin, whether it is within one that has two sides, and the mesh whose attributes it looks up.
     pub materials: HashMap<(*const Plugin, bool, Option<usize>), usize>,
@@ -50,14 +50,14 @@ pub struct Converter<'a> {
     /// The attributes of the mesh whose material is being made, where it looks any up: by their names as `vertex_color`, and a number of
     /// the mesh.
     pub attributes: Option<(usize, Rc<HashMap<String, Input>>)>,
-    /// Those of every mesh that was read with them, by its key.
+    /// Attributes of every mesh that was read with them, by its key.
     pub attributes_of_meshes: HashMap<String, (usize, Rc<HashMap<String, Input>>)>,
     pub meshes: HashMap<String, Arc<Mesh>>,
     /// Keys of meshes of which nothing is left.
     pub meshes_without_area: HashSet<String>,
     /// Files of meshes as they stand.
     pub read_meshes: HashMap<MeshKey, Result<ReadMesh, SceneError>>,
-    /// Of all shapes, copies counted.
+    /// Triangles of all shapes, copies counted.
     pub triangles: u64,
     /// How often instances at the top name a group.
     pub copies: HashMap<*const Plugin, usize>,

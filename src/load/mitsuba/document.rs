@@ -62,11 +62,11 @@ pub struct Reader<'a> {
     shapes: usize,
 }
 
-/// What the elements of one file have in common.
+/// Data that the elements of one file share.
 #[derive(Clone, Copy)]
 pub struct Source<'d> {
     name: &'d str,
-    /// Where the lines end, in bytes: to count them for each element takes the square of the file's length.
+    /// Ends of the lines, in bytes: counting them for each element takes the square of the file's length.
     line_ends: &'d [usize],
 }
 

@@ -233,7 +233,7 @@ impl Converter<'_> {
     }
 }
 
-/// Where a light stands and what it is directed at.
+/// Position of a light, and the direction in which it shines.
 struct Aim {
     position: Vector,
     direction: Located<Vector>,

@@ -1,4 +1,4 @@
-//! What the texels of pictures are for.
+//! The use of the texels of pictures.
 
 /// The use of a picture's texels. Files of integers hold all of them in sRGB unless they are `raw`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

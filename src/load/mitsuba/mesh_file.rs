@@ -58,7 +58,7 @@ impl Converter<'_> {
             self.attributes = self.attributes_of_meshes.get(&key).cloned();
             return self.mesh_entry(plugin, mesh, map).map(Some);
         }
-        // It is not read again to find that it has none.
+        // Meshes known to have no area are not read again.
         if self.meshes_without_area.contains(&key) {
             self.drop(plugin, WITHOUT_AREA, "it is left out");
             return Ok(None);
@@ -114,7 +114,7 @@ impl Converter<'_> {
         let mut inputs = HashMap::new();
         if plugin.name == "ply" {
             let model = ply::load_with_attributes(self.files, path)?;
-            // The same faces, unless another plugin of this file left some out.
+            // The model has the same faces, unless another plugin of this file left some out.
             let faces = model.parts.iter().map(|part| part.mesh.faces.len()).sum::<usize>();
             if faces == mesh.faces.len() && !model.attributes.is_empty() {
                 let blocks = Blocks::of(mesh);

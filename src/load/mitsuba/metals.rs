@@ -177,9 +177,10 @@ const TOLD: [Told; 21] = [
     Told { name: "v", n: [4.2776, 3.5129, 2.7611], k: [3.4913, 2.8895, 3.1115] },
 ];
 
-/// What a spectrum under daylight would be under a light of equal energy. Mitsuba integrates the constants of metals by name so, though not those
-/// that a scene writes: one that is the same at all wavelengths becomes 1.20, 0.95 and 0.91 of it. The spectrum is taken for the parabola over the
-/// wavelength that has these values, which is right to half a per cent for all of the table.
+/// Converts a spectrum under daylight to one under a light of equal energy. Mitsuba integrates the constants
+/// of named metals so, though not those that a scene writes: a spectrum that is constant over wavelength
+/// becomes 1.20, 0.95 and 0.91 of it. The spectrum is taken for the parabola over the wavelength that has
+/// these values, which is right to half a per cent for all of the table.
 fn under_equal_energy(daylight: [f64; 3]) -> DVec3 {
     let of_basis = |role: Role| {
         DMat3::from_cols_array_2d(
@@ -189,7 +190,7 @@ fn under_equal_energy(daylight: [f64; 3]) -> DVec3 {
     of_basis(Role::Light) * of_basis(Role::Surface).inverse() * DVec3::from(daylight)
 }
 
-/// What a conductor is of.
+/// The metal of a conductor.
 pub enum Metal {
     Preset(MetalEntry),
     Constants { eta: DVec3, k: DVec3 },
@@ -234,7 +235,7 @@ mod tests {
         }
     }
 
-    /// What Mitsuba 3.9.1 prints of its materials in its RGB variants.
+    /// Constants that Mitsuba 3.9.1 prints of its materials in its RGB variants.
     #[test]
     fn constants_of_metals_are_mitsubas() {
         for (name, eta, k) in [

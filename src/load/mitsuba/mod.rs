@@ -43,10 +43,10 @@ use super::files::Files;
 use super::import::Description;
 use super::printable::short_list;
 
-/// What to read of a file.
+/// The parts of a file to read.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// What `$key` stands for.
+    /// Values of `$key`.
     pub definitions: Vec<(String, String)>,
     /// The id of the sensor; the first one where none is named.
     pub camera: Option<String>,

@@ -12,19 +12,19 @@ use crate::load::place::Origin;
 const MOST_FILLED: usize = 1 << 20;
 const MOST_FILLED_IN_ALL: usize = 1 << 26;
 
-/// What each key stands for.
+/// Values of the keys.
 pub struct Parameters {
     values: HashMap<String, String>,
     /// The lengths of all keys, so that the longest one that fits is found without a look at each.
     lengths: BTreeSet<usize>,
-    /// Those of the command line, and whether a file asked for them.
+    /// Definitions on the command line, and whether a file asked for each.
     given: Vec<(String, Cell<bool>)>,
     /// Bytes that were filled in so far.
     filled: Cell<usize>,
 }
 
 impl Parameters {
-    /// Those of the command line.
+    /// Parameters with the definitions of the command line.
     pub fn new(definitions: &[(String, String)]) -> Self {
         let mut parameters = Self {
             values: HashMap::new(),

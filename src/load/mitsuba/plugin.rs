@@ -1,4 +1,4 @@
-//! What a scene file of Mitsuba says: plugins with properties.
+//! The content of a Mitsuba scene file: plugins with properties.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -25,13 +25,14 @@ pub struct Plugin {
     pub visited: Cell<bool>,
 }
 
-/// What is true of a plugin or of one within it. It is noted once the plugin is read: plugins share those that they name, and what walks them
-/// all meets 2³² of them where each of 32 names the one before twice.
+/// Properties of a plugin that also hold where a plugin within it has them. They are computed once the plugin
+/// is read: plugins share those that they name, and a walk over all meets 2³² of them where each of 32 names
+/// the one before twice.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Within {
     /// How many lie within each other, itself among them.
     pub depth: usize,
-    /// It looks up a texture.
+    /// The plugin looks up a texture.
     pub uses_texture: bool,
     pub uses_bitmap: bool,
     /// An attribute of a mesh.
@@ -68,13 +69,13 @@ pub enum Spectrum {
     Uniform(f64),
     /// Wavelengths in nanometres with their values.
     Samples(Vec<(f64, f64)>),
-    /// Of a black body at so many kelvins, times a factor.
+    /// Radiance of a black body at so many kelvins, times a factor.
     BlackBody(f64, f64),
 }
 
 #[derive(Debug)]
 pub struct Child {
-    /// What the plugin around calls it; empty where it says nothing.
+    /// Name given by the plugin around; empty where it gives none.
     pub name: String,
     pub plugin: Rc<Plugin>,
     pub used: Cell<bool>,

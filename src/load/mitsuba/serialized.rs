@@ -114,7 +114,7 @@ fn read<R: Read>(stream: &mut Stream<R>, version: u16) -> Result<Mesh, String> {
     if vertices > MOST || triangles > MOST {
         return Err(format!("says it has {vertices} vertices and {triangles} triangles; at most {MOST} are read"));
     }
-    // As in Mitsuba, single precision where nothing is said.
+    // Single precision is the default, as in Mitsuba.
     let double = flags & DOUBLE != 0;
     let count = vertices as usize;
     let triples =
@@ -170,7 +170,7 @@ mod tests {
         example_of(version, SINGLE)
     }
 
-    /// The same with a flag of single precision.
+    /// An example with a flag of single precision.
     fn example_of(version: u16, single: u32) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut places = Vec::new();

@@ -311,7 +311,7 @@ impl Converter<'_> {
     }
 }
 
-/// What a shape's geometry is wanted for.
+/// The use of a shape's geometry.
 #[derive(Debug, Clone, Copy)]
 pub struct Looks {
     /// A texture is looked up on it.

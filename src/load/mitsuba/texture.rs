@@ -77,7 +77,7 @@ impl Converter<'_> {
         })
     }
 
-    /// What a texture, or a plugin of a spectrum, gives.
+    /// Converts a texture, or a plugin of a spectrum.
     pub fn texture(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels) -> Result<Input, SceneError> {
         plugin.visited.set(true);
         let key = (Rc::as_ptr(plugin), role == Role::Light, texels, self.attributes.as_ref().map(|(mesh, _)| *mesh));

@@ -1,4 +1,4 @@
-//! What older versions of Mitsuba write in another way, brought up to date.
+//! Keys and plugins of older versions of Mitsuba, brought up to date.
 
 use std::cell::Cell;
 

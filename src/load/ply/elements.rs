@@ -8,7 +8,7 @@ use crate::load::model::MeshAttribute;
 /// Names of the texture coordinates.
 const U: [&str; 5] = ["u", "s", "texture_u", "texture_s", "texcoord_u"];
 const V: [&str; 5] = ["v", "t", "texture_v", "texture_t", "texcoord_v"];
-/// The same of the second ones.
+/// Names of the second texture coordinates.
 const SECOND_U: [&str; 4] = ["u1", "s1", "texture_u1", "texture_s1"];
 const SECOND_V: [&str; 4] = ["v1", "t1", "texture_v1", "texture_t1"];
 const POSITIONS: [[&str; 1]; 3] = [["x"], ["y"], ["z"]];

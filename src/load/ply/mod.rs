@@ -36,7 +36,7 @@ pub fn load(files: &Files, path: &Path) -> Result<ModelFile, SceneError> {
     open(files, path, false)
 }
 
-/// The same with what vertices and faces have beside what makes a mesh: colours and other numbers.
+/// Loads a mesh and the other numbers of its vertices and faces, such as colours.
 pub fn load_with_attributes(files: &Files, path: &Path) -> Result<ModelFile, SceneError> {
     open(files, path, true)
 }
@@ -72,7 +72,7 @@ fn most_unpacked(file: &mut AnyFile) -> std::io::Result<u64> {
     Ok(length.saturating_mul(FACTOR).saturating_add(FIRST).min(MOST_MODEL_BYTES))
 }
 
-/// What is read so far.
+/// The content that is read so far.
 #[derive(Default)]
 struct Model {
     /// A position that cannot be read is not finite.
@@ -82,7 +82,7 @@ struct Model {
     ends: Vec<usize>,
     /// Faces of which it is told already that they are left out.
     spoiled: HashSet<usize>,
-    /// What stands for the material of each face, where the file says so.
+    /// Material number of each face, where the file has them.
     groups: Option<Vec<u32>>,
     strips: Vec<u32>,
     attributes: Vec<MeshAttribute>,

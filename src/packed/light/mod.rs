@@ -48,13 +48,13 @@ pub fn environment(scene: &Scene, textures: &mut PackedTextures) -> Result<Packe
     Ok(PackedEnvironment::of(parts.collect::<Result<Vec<_>, _>>()?.into_iter()))
 }
 
-/// What next event estimation chooses from.
+/// The lights from which next event estimation chooses.
 #[derive(Debug, Default)]
 pub struct SampledLights {
     pub lights: Vec<PackedLight>,
     /// How many of them stand inside the scene: the first.
     pub local_count: usize,
-    /// Of the tree by which those are chosen; empty where they are chosen by power.
+    /// Nodes of the tree by which those are chosen; empty where they are chosen by power.
     pub nodes: Vec<LightNode>,
     /// The table by which they are chosen in cells, of which nothing is known yet; empty where they are chosen otherwise.
     pub cells: Vec<u32>,
@@ -66,8 +66,9 @@ pub fn thrown_textures(scene: &Scene) -> Vec<u32> {
     scene.lights.iter().map(mention).collect()
 }
 
-/// All sampled lights, with the places of the textures that the scene's lights throw; marks the primitives that are lights with their index. The order is that of the reference.
-/// What points of lamps are drawn by is appended to the texels.
+/// All sampled lights, with the textures of the scene's projection lights; marks the primitives that are
+/// lights with their index. The order is that of the reference. Importance maps of textured area lights are
+/// appended to the texels.
 ///
 /// # Errors
 /// [`PackError::TooManyTexels`] where 32 bits cannot number them.
@@ -89,7 +90,7 @@ pub fn collect(
     for primitive in world.primitives.iter_mut().filter(|_| is_sampled) {
         let Some(emission) = &emissions[primitive.material] else { continue };
         let attributes = world.attributes.get(primitive.attributes as usize);
-        // Where there are second texture coordinates, they stand behind the first.
+        // Second texture coordinates, where there are any, stand behind the first.
         let second = if world.second_uvs { world.attributes.get(primitive.attributes as usize + 1) } else { None };
         let power = emission.power(primitive, &maps, [attributes, second]);
         let unrolled = primitive.kind().unrolled().filter(|_| power > 0.0);
@@ -171,7 +172,7 @@ fn pack_warp(warp: &HierarchicalWarp, textures: &mut PackedTextures) -> Result<P
     Ok(PackedWarp { first_node, first_density, width: warp.width, height: warp.height })
 }
 
-/// What the tree knows of an emitting surface.
+/// An emitting surface as the light tree sees it.
 fn emitter(scene: &Scene, primitive: &WorldPrimitive, emission: &SurfaceEmission, power: f64) -> Emitter {
     let bounds = primitive.geometry.extent().unwrap_or_default();
     if primitive.moves() {

@@ -16,21 +16,22 @@ const SURFACE_KINDS: u32 = PrimitiveKind::ALL.len() as u32;
 /// The rest of the kinds: portals, the environment, and the delta lights of the table of lights.
 macro_rules! kinds {
     (environment { $($environment:tt)* } delta { $($delta:ident($type:ident) $module:ident $number:ident $($needed:ident)*,)* }) => {
-        /// What a light is that is no surface.
+        /// The kind of a light that is no surface.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u32)]
         pub enum LightKind {
-            /// Of the kind of any primitive that has an area, from bit `PORTAL_SHIFT` on.
+            /// A portal; the kind of its shape, that of any primitive with an area, stands from bit
+            /// `PORTAL_SHIFT` on.
             Portal = SURFACE_KINDS,
             Environment,
             $($delta,)*
         }
 
         impl LightKind {
-            /// Those to which one direction leads from each point.
+            /// The lights that each point sees along one direction alone.
             pub const DELTA: &'static [Self] = &[$(Self::$delta),*];
 
-            /// What shaders call its number; of a delta light also the switch that compiles it.
+            /// The name of its number in shaders; for a delta light also the switch that compiles it.
             pub fn number_name(self) -> &'static str {
                 match self {
                     Self::Portal => "LIGHT_PORTAL",
@@ -69,7 +70,7 @@ shared_constants!(flags {
     /// The least solid angle of rectangles, and the least distance of the point from the plane as a share of that of the farthest side.
     const LEAST_RECTANGLE_SOLID_ANGLE: f32 = strategy::LEAST_SOLID_ANGLE as f32;
     const LEAST_RECTANGLE_DISTANCE: f32 = strategy::LEAST_DISTANCE as f32;
-    /// The same of triangles; the share is that of a volume.
+    /// The least solid angle and share of triangles; the share is one of a volume.
     const LEAST_TRIANGLE_SOLID_ANGLE: f32 = strategy::LEAST_TRIANGLE_SOLID_ANGLE as f32;
     const LEAST_TRIANGLE_SHARE: f32 = strategy::LEAST_TRIANGLE_SHARE as f32;
     /// Its points move as its attributes say.
@@ -78,12 +79,12 @@ shared_constants!(flags {
     pub(in crate::packed) const LIGHT_WARPED: u32 = 4096;
     /// Its texture coordinates run against its first edge.
     pub(in crate::packed) const LIGHT_REVERSED: u32 = 8192;
-    /// Of a delta light: where the number of its form stands.
+    /// Bit from which on the number of a delta light's form stands.
     pub(in crate::packed) const LIGHT_FORM_SHIFT: u32 = 16;
-    /// Of a spot light: how its intensity falls off between its angles.
+    /// Falloff of a spot light's intensity between its angles.
     const SPOT_FALLOFF_SQUARE: u32 = crate::scene::light::FALLOFF_SQUARE;
     const SPOT_FALLOFF_LINEAR: u32 = crate::scene::light::FALLOFF_LINEAR;
-    /// Of a portal: where the kind of its shape stands.
+    /// Bit from which on the kind of a portal's shape stands.
     pub(in crate::packed) const PORTAL_SHIFT: u32 = 12;
     /// Words of a node in the tree of lights.
     pub const LIGHT_NODE_WORDS: u32 = (size_of::<LightNode>() / 16) as u32;
@@ -120,11 +121,12 @@ pub struct PackedLight {
     /// The light's trail in the tree of lights, where there is one.
     pub trail: u32,
     pub p2: [f32; 3],
-    /// Of a delta light: the texture that it throws, or NONE.
+    /// The texture of a projection light, or NONE; attributes of a surface.
     pub attributes: u32,
-    /// Radiance of a surface; of a delta light, intensity or irradiance; of a lamp whose points are drawn by what it shows, the [`PackedWarp`].
+    /// Radiance of a surface; intensity or irradiance of a delta light; the [`PackedWarp`] of a textured area
+    /// light.
     pub radiance: [f32; 3],
-    /// Of a surface.
+    /// Material of a surface.
     pub material: u32,
 }
 
@@ -177,12 +179,12 @@ impl PackedLight {
         Self { kind_and_flags, size, p1, p2, attributes: texture, ..plain }.of_kind(kind)
     }
 
-    /// Of a delta light: the number of its form.
+    /// Number of a delta light's form.
     pub fn form(&self) -> u32 {
         if self.is_delta() { self.kind_and_flags >> LIGHT_FORM_SHIFT & LIGHT_FORMS } else { 0 }
     }
 
-    /// Of a delta light: it throws a texture.
+    /// True of a projection light: a delta light with a texture.
     pub fn throws_texture(&self) -> bool {
         self.is_delta() && self.attributes != NONE
     }
@@ -192,7 +194,7 @@ impl PackedLight {
         self.kind_and_flags & LIGHT_VARIES != 0
     }
 
-    /// It is a surface of this kind whose points are drawn by solid angle.
+    /// True of a surface of this kind whose points are sampled by solid angle.
     pub fn is_drawn_by_solid_angle(&self, kind: PrimitiveKind) -> bool {
         self.is_surface() && self.shape() == Some(kind) && self.kind_and_flags & LIGHT_BY_SOLID_ANGLE != 0
     }
@@ -201,7 +203,7 @@ impl PackedLight {
         self.is_surface() && self.kind_and_flags & LIGHT_WARPED != 0
     }
 
-    /// What its points are drawn by, where that is not evenly.
+    /// The distribution of its points, where that is not uniform.
     pub fn warp(&self) -> Option<PackedWarp> {
         let [first_node, first_density, size] = self.radiance.map(f32::to_bits);
         let (width, height) = (size & 0xffff, size >> 16);
@@ -220,7 +222,7 @@ impl PackedLight {
         self.kind() == kind as u32
     }
 
-    /// It is a surface, whose kind is that of a primitive.
+    /// True of a surface, whose kind is that of a primitive.
     pub fn is_surface(&self) -> bool {
         self.kind() < SURFACE_KINDS
     }

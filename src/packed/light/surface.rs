@@ -18,7 +18,7 @@ use crate::scene::texture::{mean_of_channel, mean_of_texture};
 use crate::scene::{ChannelInput, ColorInput, LightSampling, Scene};
 use crate::texture::Coordinates;
 
-/// What a surface of some material sends out.
+/// Emission of the surfaces with some material.
 pub struct SurfaceEmission {
     material: usize,
     mean_radiance: DVec3,
@@ -26,7 +26,7 @@ pub struct SurfaceEmission {
     two_sided: bool,
     /// The radiance of a blend changes with its weights, that of a texture over the surface: the whole material is looked up.
     varies: bool,
-    /// Of a plain material.
+    /// Radiance of a material without a texture.
     radiance: ColorInput,
 }
 

@@ -1,10 +1,10 @@
-//! What kernels know: the primitives that shapes are made of.
+//! Elements: the primitives of kernels, of which shapes are made.
 
 use glam::{DAffine3, DVec3, Vec3};
 
 /// A primitive in world space.
 pub trait Element: Copy {
-    /// Where a motion takes it. What is round is scaled by the same factor along every axis.
+    /// The element under a motion. Round ones are scaled by the same factor along every axis.
     fn moved(&self, map: &DAffine3) -> Self;
 
     /// Bounds in f32, grown past rounding. None: it is infinite.
@@ -19,10 +19,11 @@ pub trait Element: Copy {
     /// The three points of its record.
     fn points(&self) -> [Vec3; 3];
 
-    /// As a light: its area, or 0 of what is not sampled by area; and three points. None: no density covers it evenly.
+    /// Its data as a light: its area, or 0 where it is not sampled by area; and three points. None: no
+    /// density covers it evenly.
     fn light(&self) -> Option<(f64, [DVec3; 3])>;
 
-    /// As a light: its normal. None: it is not flat.
+    /// Its normal as a light. None: it is not flat.
     fn light_normal(&self) -> Option<DVec3> {
         self.light().map(|(_, [_, edge_u, edge_v])| edge_u.cross(edge_v).normalize_or_zero())
     }

@@ -20,7 +20,7 @@ use crate::shader::shared::{Constant, Constants};
 use element::Element;
 pub use placement::Placement;
 
-/// What chooses among the rows of the table of shapes, which are a module each, and their primitives.
+/// Dispatch over the rows of the table of shapes, which are a module each, and over their primitives.
 macro_rules! modules {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         $($(pub use $module::$primitive;)?)*
@@ -70,7 +70,7 @@ macro_rules! modules {
                 }
             }
 
-            /// What shaders call its number.
+            /// The name of its number in shaders.
             pub fn number_name(self) -> &'static str {
                 match self {
                     $($(Self::$primitive => concat!("KIND_", stringify!($capitals)),)?)*
@@ -99,7 +99,7 @@ macro_rules! modules {
             }
         }
 
-        /// Where a primitive is, in world space.
+        /// The geometry of a primitive, in world space.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum PrimitiveGeometry {
             $($($primitive($module::$primitive),)?)*
@@ -112,7 +112,7 @@ macro_rules! modules {
                 }
             }
 
-            /// Where a motion takes it. What is round is scaled by the same factor along every axis.
+            /// The primitive under a motion. Round ones are scaled by the same factor along every axis.
             pub fn moved(&self, map: &DAffine3) -> Self {
                 match self {
                     $($(Self::$primitive(primitive) => Self::$primitive(primitive.moved(map)),)?)*
@@ -147,14 +147,15 @@ macro_rules! modules {
                 }
             }
 
-            /// As a light: its area, or what its shader takes instead, and three points. None: no density covers it evenly.
+            /// Its data as a light: its area, or the quantity that its shader takes instead, and three
+            /// points. None: no density covers it evenly.
             pub fn light(&self) -> Option<(f64, [DVec3; 3])> {
                 match self {
                     $($(Self::$primitive(primitive) => primitive.light(),)?)*
                 }
             }
 
-            /// As a light: its normal. None: it is not flat.
+            /// Its normal as a light. None: it is not flat.
             pub fn light_normal(&self) -> Option<DVec3> {
                 match self {
                     $($(Self::$primitive(primitive) => primitive.light_normal(),)?)*
@@ -184,7 +185,7 @@ pub enum SurfaceSampling {
     Infinite,
 }
 
-/// Where a primitive's texture coordinates come from.
+/// Origin of a primitive's texture coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SurfaceCoordinates {
     /// From places along two edges; attributes say what they are at the corners.
@@ -210,7 +211,7 @@ pub fn constants() -> Constants {
 }
 
 impl PrimitiveKind {
-    /// It has neither bounds nor an area: it stands in no hierarchy, and is neither light nor portal.
+    /// True of a shape with neither bounds nor area: it is in no hierarchy, and is neither light nor portal.
     pub fn is_infinite(self) -> bool {
         self.sampling() == SurfaceSampling::Infinite
     }

@@ -1,4 +1,4 @@
-//! Where a shape stands, and what its packing depends on.
+//! The transform of a shape, and the facts on which its packing depends.
 
 use glam::{DAffine3, DVec3};
 

@@ -86,7 +86,7 @@ fn level_size(map: &PackedMap, level: u32) -> [u32; 2] {
     [map.grid_width, map.grid_height].map(|cells| cells.div_ceil(1 << level))
 }
 
-/// Whether a split lies in the interval; at its end where nothing is behind it.
+/// True where a split lies in the interval; at its end where nothing is behind it.
 fn divides(split: u32, [low, high]: Interval, has_second: bool) -> bool {
     if has_second { (low..=high).contains(&split) } else { split == high }
 }

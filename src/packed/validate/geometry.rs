@@ -75,7 +75,7 @@ impl PackedScene {
         if self.second_uvs && primitive.is(PrimitiveKind::Triangle) && !has_second {
             return Err(format!("has attributes {}, and no second texture coordinates follow", primitive.attributes));
         }
-        // What moves has attributes, which say how.
+        // Moving primitives have attributes, which name the motion.
         if primitive.moves() && self.motion_of(primitive.attributes).is_none() {
             return Err("moves, and nothing says how".to_owned());
         }

@@ -1,4 +1,4 @@
-//! What must hold of a packed scene before a kernel may read it.
+//! Conditions on a packed scene that must hold before a kernel may read it.
 //!
 //! Kernels are compiled without bounds checks and without bounds on loops. So every word that a kernel makes an index of, or counts a loop
 //! by, is checked here first, in time proportional to the scene. [`words`] lists those words; most are plain indices, the others have
@@ -19,7 +19,7 @@ use words::{Array, Word};
 /// Records that are checked one after the other before another thread is worth its while.
 const MANY: usize = 1 << 14;
 
-/// What is wrong, in words.
+/// The fault that was found, in words.
 type Check = Result<(), String>;
 
 impl PackedScene {

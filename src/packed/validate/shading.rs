@@ -29,7 +29,7 @@ fn inner_nodes(width: u32, height: u32) -> u64 {
     (1..=levels).map(at).sum()
 }
 
-/// Whether `count` records from `first` on stand within `length`.
+/// True where `count` records from `first` on stand within `length`.
 fn is_within(first: u32, count: u32, length: usize) -> bool {
     u64::from(first) + u64::from(count) <= length as u64
 }

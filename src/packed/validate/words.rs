@@ -1,4 +1,4 @@
-//! What each 32-bit word of a packed record means to a kernel, in one place.
+//! The meaning of each 32-bit word of a packed record to a kernel, in one place.
 //!
 //! The [checks](super) go by this list, and their tests corrupt every word of every record by it.
 
@@ -104,8 +104,8 @@ impl Array {
     }
 }
 
-/// What a word is for. All that stand in no list are free: numbers to compute with, seeds, thresholds. Whatever bits such a word has, no
-/// kernel reads out of bounds by it.
+/// The use of a word. Words in no list are free: numbers to compute with, seeds, thresholds. Whatever bits
+/// such a word has, no kernel reads out of bounds by it.
 #[derive(Debug, Clone, Copy)]
 pub enum Word {
     /// An index into an array.
@@ -175,9 +175,9 @@ const WEIGHT: [(usize, Word); 2] =
 const LIGHT: [(usize, Word); 7] = [
     (word!(PackedLight, kind_and_flags), Checked),
     (word!(PackedLight, alias), Index(Array::Lights)),
-    // Of a delta light a texture, of others attributes.
+    // A texture in delta lights, attributes in others.
     (word!(PackedLight, attributes), Checked),
-    // Where a density stands.
+    // Index of a density.
     (word!(PackedLight, radiance), CheckedIn(is_warped)),
     (word!(PackedLight, radiance) + 1, CheckedIn(is_warped)),
     (word!(PackedLight, radiance) + 2, CheckedIn(is_warped)),

@@ -38,7 +38,7 @@ pub use outside::Outside;
 /// Relative amount by which a shadow segment stops short of the light's point, so that what the light lies upon does not block it.
 const SHADOW_MARGIN: f64 = 1e-12;
 
-/// What chooses among the rows of the table of lights, which are a module each.
+/// Dispatch over the rows of the table of lights, which are a module each.
 macro_rules! modules {
     (environment { $($environment:ident($_outside:ident) $environment_module:ident $_switch:ident $($_needed:ident)*,)* }
      delta { $($delta:ident($_type:ident) $delta_module:ident $_number:ident $($_delta_needed:ident)*,)* }) => {

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use toml::{Table, Value};
 
-/// What has values by keys.
+/// Values that are looked up by keys.
 pub trait Lookup {
     fn look_up(&self, key: &str) -> Option<&Value>;
 }

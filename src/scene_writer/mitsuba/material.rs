@@ -89,7 +89,7 @@ impl<'w> Writer<'w> {
         entries(self.scene, "material").into_iter().find(|material| text(*material, "name") == Some(name))
     }
 
-    /// It, or a part of it at any depth, looks up a texture.
+    /// True where the material, or a part of it at any depth, looks up a texture.
     pub fn shows_texture(&self, name: &str, depth: usize) -> bool {
         let Some(material) = self.named(name) else { return false };
         let is_texture = |(key, value): (&String, &Value)| {

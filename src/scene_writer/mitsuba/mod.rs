@@ -1,6 +1,7 @@
 //! A scene as one of Mitsuba 3, as far as it can be said there.
 //!
-//! It is written as a scene file of ours first, whose keys are then said one by one: colours are numbers there, and opacity is a blend.
+//! The scene is first written as a TOML scene file, whose keys are then converted one by one: colours are
+//! numbers there, and opacity is a blend.
 
 mod keys;
 mod material;
@@ -80,7 +81,7 @@ impl Writer<'_> {
         keys.rest().into_iter().for_each(|key| self.drop(&format!("key `{key}`"), place, "it has no effect"));
     }
 
-    /// The same of a table within a key, of which these are said.
+    /// Reports the keys of a table within a key that are not among those written.
     fn drop_others(&mut self, of: &Table, said: &[&str], place: &str) {
         // A factor of 1 is as if none were written.
         let is_one = |key: &str| key == "factor" && number(of, key) == Some(1.0);
@@ -181,13 +182,13 @@ impl Writer<'_> {
             }
         };
         sensor = sensor.with(sampler).with(film);
-        // Where nothing moves, the shutter has no effect; what does is reported by itself.
+        // Without motion the shutter has no effect; moving objects are reported by themselves.
         let _ = (camera.contains_key("shutter"), camera.contains_key("focus_distance"), camera.contains_key("aperture"));
         self.drop_rest(camera, "camera");
         self.xml.push(sensor);
     }
 
-    /// Whether it is said.
+    /// Writes a light; returns false where Mitsuba has no such light.
     fn light(&mut self, light: &Keys<'_>, place: &str) -> Result<bool, SceneError> {
         let emitter = match text(light, "type").unwrap_or_default() {
             "point" => Element::new("emitter", "point")

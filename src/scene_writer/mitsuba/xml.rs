@@ -35,7 +35,7 @@ impl Element {
         Self { tag, kind: kind.to_owned(), ..Self::default() }
     }
 
-    /// What the plugin around calls it.
+    /// Sets the name by which the plugin around refers to it.
     pub fn named(mut self, name: &str) -> Self {
         self.attributes.push(("name", name.to_owned()));
         self

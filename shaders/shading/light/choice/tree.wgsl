@@ -23,7 +23,8 @@ fn cluster_numbers(halves: u32) -> vec2<f32> {
     return vec2<f32>(f32(i32(halves << 16u) >> 16u), f32(i32(halves) >> 16u)) * CLUSTER_STEP;
 }
 
-// What a cluster can send to a point: its power times the largest cosine at its lights, 0 where nothing arrives; and the squared distance.
+// Importance of a cluster at a point: its power times the largest cosine at its lights, 0 where nothing
+// arrives; and the squared distance.
 fn cluster_seen(sphere: vec4<f32>, words: vec4<u32>, point: vec3<f32>) -> vec2<f32> {
     let power = bitcast<f32>(words.x);
     let away = point - sphere.xyz;
@@ -43,7 +44,7 @@ fn cluster_seen(sphere: vec4<f32>, words: vec4<u32>, point: vec3<f32>) -> vec2<f
     let is_beyond = along < cone.x;
     let beyond = select(1.0, along * cone.x + aside * sine_of_spread, is_beyond);
     let sine = select(0.0, aside * cone.x - along * sine_of_spread, is_beyond);
-    // The same from the point of the sphere from where it is least.
+    // Largest cosine over the points of the cluster's bounding sphere.
     let sine_of_sphere = sphere.w / distance;
     let cosine_of_sphere = sqrt(max(0.0, 1.0 - sine_of_sphere * sine_of_sphere));
     let cosine = select(1.0, beyond * cosine_of_sphere + sine * sine_of_sphere, beyond < cosine_of_sphere);

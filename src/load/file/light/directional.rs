@@ -22,7 +22,7 @@ pub struct Keys {
     pub direction: Located<Vector>,
     /// On a surface that faces the light, W·m⁻².
     pub irradiance: Rgb<NonNegative>,
-    /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    /// Values at frames (`--frame`, `--frames`, `--time`); without a frame the other keys hold.
     #[schemars(extend("minItems" = 1))]
     pub keyframes: Option<Located<Vec<Located<DirectionalKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.

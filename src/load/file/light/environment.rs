@@ -26,7 +26,7 @@ use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, Map
 #[schemars(rename = "EnvironmentLight")]
 #[schemars(extend("allOf" = [{ "oneOf": [{ "required": ["radiance"] }, { "required": ["file"] }] }], "dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
-    /// The same radiance from everywhere.
+    /// Radiance that is equal in all directions.
     pub radiance: Option<Located<Rgb<NonNegative>>>,
     /// A lat-long map, EXR or HDR: u = atan2(x, −z)/2π (mod 1), v = acos(y)/π from the top row, interpolated bilinearly.
     pub file: Option<Located<FileOr<EmbeddedFile>>>,
@@ -36,9 +36,9 @@ pub struct Keys {
     pub rotate: Option<Number>,
     /// Exchanges the map's left and right before it is turned; false when left out.
     pub mirror: Option<Located<bool>>,
-    /// Where the first and the last row of the map lie: half a row from the poles when left out.
+    /// Position of the first and the last row of the map: half a row from the poles when left out.
     pub rows: Option<Rows>,
-    /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    /// Values at frames (`--frame`, `--frames`, `--time`); without a frame the other keys hold.
     #[schemars(extend("minItems" = 1))]
     pub keyframes: Option<Located<Vec<Located<EnvironmentKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.
@@ -124,7 +124,7 @@ impl From<Rows> for MapRows {
 }
 
 impl Keys {
-    /// The same radiance from everywhere.
+    /// An environment whose radiance is equal in all directions.
     pub fn constant(radiance: Located<Rgb<NonNegative>>) -> Self {
         Self {
             radiance: Some(radiance),

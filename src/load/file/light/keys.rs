@@ -1,4 +1,4 @@
-//! What every type of light gives.
+//! The contract of every type of light.
 
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
@@ -6,7 +6,7 @@ use crate::load::file::writer::Writer;
 use crate::load::place::Place;
 use crate::scene::animation::LightTrack;
 
-/// What a light's keys mean.
+/// Meaning of a light's keys.
 pub trait LightKeys {
     /// The light in the scene.
     type Light;
@@ -20,7 +20,7 @@ pub trait LightKeys {
     /// The light; `span` is its whole table.
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Place) -> Result<Self::Light, SceneError>;
 
-    /// What it is at frames, of a light that is to be the scene's next one; None where that is always the same.
+    /// Values at frames of the light that becomes the scene's next one; None where they never change.
     fn track(&self, _: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
         Ok(None)
     }

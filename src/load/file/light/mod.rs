@@ -96,7 +96,7 @@ pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
     ["environment", "delta"].into_iter().flat_map(examples_of)
 }
 
-/// Those of a group of the table of lights.
+/// Examples of a group of the table of lights.
 pub fn examples_of(group: &str) -> impl Iterator<Item = (&'static str, String)> {
     let of_type = |&(_, name, examples): &(&'static str, &'static str, &'static [&'static str])| {
         examples.iter().map(move |keys| (name, format!("[[light]]\ntype = \"{name}\"\n{keys}\n")))

@@ -21,7 +21,7 @@ pub struct Keys {
     pub position: Vector,
     /// W·sr⁻¹
     pub intensity: Rgb<NonNegative>,
-    /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    /// Values at frames (`--frame`, `--frames`, `--time`); without a frame the other keys hold.
     #[schemars(extend("minItems" = 1))]
     pub keyframes: Option<Located<Vec<Located<PointKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.

@@ -21,7 +21,7 @@ use crate::scene::{Projector, TextureKind};
 pub struct Keys {
     pub position: Vector,
     pub direction: Located<Vector>,
-    /// Where the picture's upper edge is; [0, 1, 0] when left out.
+    /// Direction towards the picture's upper edge; [0, 1, 0] when left out.
     pub up: Option<Located<Vector>>,
     /// W·m⁻² where the texture is white, on a plane at distance 1 that faces the projector.
     pub irradiance: Rgb<NonNegative>,

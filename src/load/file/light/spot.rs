@@ -35,7 +35,7 @@ pub struct Keys {
     pub texture: Option<Located<TextureName>>,
     /// With `texture`: where its upper edge is, seen from the light; [0, 1, 0] when left out.
     pub up: Option<Located<Vector>>,
-    /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    /// Values at frames (`--frame`, `--frames`, `--time`); without a frame the other keys hold.
     #[schemars(extend("minItems" = 1))]
     pub keyframes: Option<Located<Vec<Located<SpotKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.

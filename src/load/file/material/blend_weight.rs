@@ -102,7 +102,7 @@ impl NamesTextures for BlendWeightEntry {
 }
 
 impl BlendWeightEntry {
-    /// The same share everywhere.
+    /// A weight that is constant over the surface.
     ///
     /// # Errors
     /// A sentence about a number that is no share.

@@ -45,7 +45,7 @@ impl MaterialKeys for Keys {
         }
     }
 
-    /// What it sends out is written as every material's is.
+    /// Nothing to write: emission is written as for every material.
     fn write(_kind: &MaterialKind, _writer: &Writer<'_>) -> String {
         String::new()
     }

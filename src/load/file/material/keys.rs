@@ -1,4 +1,4 @@
-//! What every type of material gives, and the keys that all have.
+//! The contract of every type of material, and the keys that all have.
 
 use super::opacity::Opacity;
 use crate::load::error::SceneError;
@@ -9,7 +9,7 @@ use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative,
 use crate::load::file::writer::Writer;
 use crate::scene::{ColorInput, Emission, MaterialKind};
 
-/// What a material's keys mean.
+/// Meaning of a material's keys.
 pub trait MaterialKeys {
     /// Tables without their `name` and `type`, which tests render.
     const EXAMPLES: &'static [&'static str];
@@ -20,7 +20,7 @@ pub trait MaterialKeys {
     /// The keys of this type alone that say the same, a line each; nothing for a material of another type.
     fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String;
 
-    /// What it sends out by itself.
+    /// Emission of the material on its own.
     fn emission(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {
         match (common.emission, common.emission_two_sided) {
             (Some(emission), two_sided) => {
@@ -32,7 +32,7 @@ pub trait MaterialKeys {
         }
     }
 
-    /// Whether it scatters light on both sides.
+    /// True where the material scatters light on both sides.
     fn two_sided(&self, common: &CommonKeys<'_>, _resolver: &Resolver<'_>) -> Result<bool, SceneError> {
         Ok(common.two_sided.is_none_or(|two_sided| two_sided.value))
     }
@@ -75,7 +75,7 @@ pub struct CommonKeys<'a> {
     pub two_sided: Option<&'a Located<bool>>,
 }
 
-/// The same to be changed.
+/// Mutable references to the common keys.
 pub struct CommonKeysMut<'a> {
     pub name: &'a mut Located<String>,
     pub normal_map: &'a mut Option<Located<TextureName>>,
@@ -104,7 +104,7 @@ macro_rules! material_keys {
         }))]
         $(#[$doc])*
         pub struct Keys {
-            /// What shapes and blends call it.
+            /// Name by which shapes and blends refer to the material.
             #[schemars(extend("minLength" = 1))]
             pub name: $crate::load::file::value::Located<String>,
             $($(#[$field_doc])* pub $field: $type,)*

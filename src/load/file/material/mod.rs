@@ -32,7 +32,7 @@ use crate::scene::{Emission, MaterialKind};
 /// The entries of a scene file, by the rows of the table of materials.
 macro_rules! entries {
     ($($material:ident $module:ident { $($lobe:tt)* })*) => {
-        /// What surfaces are made of.
+        /// Materials of surfaces.
         #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(rename = "key:type", rename_all = "snake_case")]
         #[schemars(tag = "type", rename = "MaterialEntry")]

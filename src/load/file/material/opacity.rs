@@ -23,7 +23,8 @@ pub struct OpacityTexture {
     channel: Option<ChannelName>,
     /// Multiplies the texture, 1 when left out.
     factor: Option<Checked<Fraction>>,
-    /// Where it is written, the surface is whole where the product is at least this, and not there elsewhere.
+    /// Threshold: where it is given, the surface is opaque where the product is at least this, and absent
+    /// elsewhere.
     cutoff: Option<Checked<Fraction>>,
 }
 

@@ -19,7 +19,7 @@ material_keys! {
         },
     ]))]
     {
-        /// Of the base.
+        /// Reflectance of the diffuse base.
         reflectance: Colour<Fraction>,
         /// Inside over outside, 1.5 when left out.
         ior: Option<Checked<IndexOfRefraction>>,

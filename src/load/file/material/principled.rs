@@ -37,7 +37,7 @@ material_keys! {
         metallic: Option<Scalar<Fraction>>,
         /// Its square is the width of the microfacets. 1 when left out.
         roughness: Option<Scalar<Fraction>>,
-        /// Of the dielectric, 1.5 when left out.
+        /// Index of refraction of the dielectric, 1.5 when left out.
         ior: Option<Checked<IndexOfRefraction>>,
         /// Factor of what the dielectric reflects, 1 when left out.
         specular: Option<Scalar<Fraction>>,
@@ -47,7 +47,7 @@ material_keys! {
         transmission: Option<Scalar<Fraction>>,
         /// Light goes through a wall without thickness, which does not bend it.
         thin: Option<Located<bool>>,
-        /// What is left of light that has gone `attenuation_distance` far within what the surface encloses.
+        /// Share of light left after `attenuation_distance` within the volume that the surface encloses.
         attenuation_color: Option<Located<Rgb<Fraction>>>,
         /// In units of the world.
         attenuation_distance: Option<Located<Checked<Positive>>>,
@@ -203,7 +203,7 @@ impl Keys {
     }
 }
 
-/// Where a key stands that is written.
+/// Place of a key that is written.
 fn span<T>(written: &Option<Located<T>>) -> Option<Place> {
     written.as_ref().map(|written| written.place.clone())
 }

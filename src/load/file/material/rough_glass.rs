@@ -47,7 +47,7 @@ material_keys! {
         roughness_u: Option<Located<Scalar<Fraction>>>,
         /// alpha_v = roughness_v²
         roughness_v: Option<Located<Scalar<Fraction>>>,
-        /// Of the Phong distribution.
+        /// Exponent of the Phong distribution.
         exponent: Option<Located<Scalar<Positive>>>,
         /// "ggx" when left out, but "phong" with an `exponent`.
         distribution: Option<Located<MicrofacetEntry>>,

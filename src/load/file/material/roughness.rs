@@ -50,7 +50,7 @@ impl From<DistributionEntry> for MicrofacetDistribution {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MaskingEntry {
-    /// What is high is seen from both.
+    /// High points of the surface are seen from both directions.
     HeightCorrelated,
     /// One has nothing to do with the other, as in Mitsuba and in glTF's model.
     Separable,
@@ -176,7 +176,7 @@ pub fn write_distribution(distribution: MicrofacetDistribution) -> String {
     }
 }
 
-/// The same.
+/// Name of the masking in a scene file.
 pub fn write_masking(masking: Masking) -> String {
     match masking {
         Masking::Separable => line("masking", "\"separable\""),

@@ -11,7 +11,7 @@ pub const LOCATED: &str = "$located";
 /// Reads a value and its place.
 ///
 /// # Errors
-/// Those of the value, and of readers that know no places.
+/// Errors of the value, and of readers that know no places.
 pub fn located<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<(T, Range<usize>), D::Error> {
     struct LocatedVisitor<T>(std::marker::PhantomData<T>);
     impl<'de, T: Deserialize<'de>> Visitor<'de> for LocatedVisitor<T> {

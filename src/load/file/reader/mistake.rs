@@ -1,4 +1,4 @@
-//! What is wrong with a value.
+//! A mistake in a value.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,11 +7,11 @@ use serde::de::{Error, Expected, Unexpected};
 
 use crate::load::file::suggestion::{did_you_mean, list_of};
 
-/// What is wrong with a value in the words of scene files, and the bytes of the value.
+/// A mistake in a value in the words of scene files, and the bytes of the value.
 #[derive(Debug)]
 pub struct Mistake {
     pub message: String,
-    /// What would be right.
+    /// A hint at the right input.
     pub help: Option<String>,
     pub span: Option<Range<usize>>,
 }
@@ -81,7 +81,7 @@ impl fmt::Display for Found<'_> {
     }
 }
 
-/// What is expected; types of Rust that say it themselves have names in TOML.
+/// The expectation in words of TOML; types of Rust that name themselves have other names there.
 fn words(expected: &dyn Expected) -> String {
     match expected.to_string().as_str() {
         "a nonzero u32" => "a whole number of at least 1".to_owned(),

@@ -333,14 +333,14 @@ impl<'t> SeqAccess<'t> for Items<'t> {
 /// The kind of an enum and its content.
 struct Choice<'t> {
     kind: Kind<'t>,
-    /// Where the kind is written.
+    /// Place of the kind.
     span: Range<usize>,
     content: Option<Reader<'t>>,
 }
 
 enum Kind<'t> {
     Name(&'t str),
-    /// Of a value with its place: the place.
+    /// The place of a value with its place.
     Place(Range<usize>),
 }
 
@@ -371,7 +371,7 @@ impl<'t> Deserializer<'t> for Kind<'t> {
     }
 }
 
-/// What stands beside the kind; nothing where that is a mere name.
+/// Values beside the kind; none where the entry is a mere name.
 struct Content<'t>(Option<Reader<'t>>);
 
 impl<'t> VariantAccess<'t> for Content<'t> {

@@ -47,7 +47,7 @@ impl Resolver<'_> {
         if nodes.len() < file.node.len() {
             return Ok(());
         }
-        // Of each node, whether the chain of its parents is known to end.
+        // True, for each node, where the chain of its parents is known to end.
         let mut ends = vec![false; nodes.len()];
         let mut walk = vec![usize::MAX; nodes.len()];
         for start in 0..nodes.len() {
@@ -190,7 +190,7 @@ impl Resolver<'_> {
         Ok(Some(track))
     }
 
-    /// What a light is at frames, which is the next one of the scene.
+    /// Values at frames of the scene's next light.
     pub(in crate::load::file) fn light_track<K: LightKeyEntry>(
         &self,
         written: WrittenLightTrack<'_, K>,

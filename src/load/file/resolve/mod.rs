@@ -33,7 +33,7 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
     if resolver.note(animation).is_none() {
         return resolver.finish();
     }
-    // Where names are not clear, whatever names something would seem wrong.
+    // Without unique names every reference would look wrong.
     let textures = resolver.textures(&file.texture);
     if resolver.note(textures).is_none() {
         return resolver.finish();
@@ -54,7 +54,7 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
 /// The transform that an entry of a file states.
 ///
 /// # Errors
-/// What is wrong with it.
+/// A mistake in it.
 pub fn resolve_transform(document: &Document<'_>, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
     Resolver::new(document.clone(), Path::new(""), Access::default()).transform(written)
 }
@@ -62,7 +62,7 @@ pub fn resolve_transform(document: &Document<'_>, written: &Located<TransformEnt
 /// Reads a model by itself: a scene of one shape with the model's own materials, or with the last one of `materials`.
 ///
 /// # Errors
-/// What keeps the model or the materials from being read.
+/// Mistakes in the model or the materials.
 pub fn resolve_model<'a>(
     path: &Path,
     smooth: Option<bool>,

@@ -15,7 +15,7 @@ const KEYS_OF_SOME: [MtlKey; 6] = ["Ps", "Pc", "aniso", "map_Ps", "map_Pc", "map
 /// MTL has no key for the roughness of sheen; this is what Blender, which writes `Ps`, begins with.
 const SHEEN_ROUGHNESS: f64 = 0.5;
 
-/// It says its roughness or how much of a metal it is, or has a coat, sheen or a direction.
+/// True where the material states a roughness or metalness, or has a coat, sheen or a direction.
 pub fn is_principled(written: &MtlMaterial) -> bool {
     let is_written = |key: &MtlKey| written.maps.contains_key(key) || written.numbers.contains_key(key);
     let is_some = |key: &MtlKey| written.maps.contains_key(key) || written.number(key).is_some_and(|number| number != 0.0);

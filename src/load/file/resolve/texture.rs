@@ -172,7 +172,7 @@ impl Resolver<'_> {
         self.image_and_bits(file, space).map(|(image, _)| image)
     }
 
-    /// The same with the bits of a format of integers.
+    /// An image and its bits, where its format has integers.
     pub(in crate::load::file) fn image_and_bits(
         &mut self,
         file: &Located<FileOr<EmbeddedFile>>,

@@ -20,7 +20,7 @@ use crate::load::place::Place;
 use crate::scene::Mesh;
 use crate::scene::animation::{Curve, Deformation, Interpolation, Joint, Key, MorphTarget};
 
-/// What bends a mesh: first morph targets, then joints.
+/// Deformation of a mesh: first morph targets, then joints.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { file = \"arm.json\", joints = [{ node = \"elbow\" }] }")]
 #[schemars(rename = "Deformation")]
@@ -30,7 +30,8 @@ pub struct DeformationEntry {
     /// move vertices.
     #[schemars(extend("pattern" = "\\.[jJ][sS][oO][nN]$"))]
     pub file: Located<FileOr<DeformationRows>>,
-    /// What takes vertices along. A vertex goes where its joints put it on average, by their weights.
+    /// Joints that move the vertices. A vertex moves to the average of its positions under its joints, by
+    /// their weights.
     pub joints: Option<Located<Vec<JointEntry>>>,
     /// How much each target counts without a frame.
     pub weights: Option<Located<Vec<Number>>>,

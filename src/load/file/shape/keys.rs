@@ -9,7 +9,7 @@ use crate::load::file::writer::Writer;
 use crate::load::place::Place;
 use crate::scene::{MaterialId, Shape};
 
-/// What a shape's keys mean.
+/// Meaning of a shape's keys.
 pub trait ShapeKeys {
     /// The geometry in the scene.
     type Shape;
@@ -50,7 +50,8 @@ macro_rules! shape_keys {
                 { "type": "array", "contains": { "type": "object", "required": ["matrix"] } },
             ] } }]))]
             pub motion: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
-            /// Where the shape stands at frames (`--frame`, `--frames`, `--time`), in place of `transform`, where it stands without one.
+            /// Transforms at frames (`--frame`, `--frames`, `--time`), in place of `transform`, which holds
+            /// without a frame.
             #[schemars(extend("minItems" = 1))]
             pub keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<$crate::load::file::keyframes::TransformKeyEntry>>>>,
             /// How keyframes lead from one to the next; "linear" when left out.

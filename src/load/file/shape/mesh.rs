@@ -45,8 +45,8 @@ shape_keys! {
         second_uvs: Option<Located<Vec<Exactly<Number, 2>>>>,
         /// One per position.
         normals: Option<Located<Vec<Located<Vector>>>>,
-        /// Of a file's own materials, by their names, those for which a `[[material]]` of this scene stands: `{ Wood = "oak" }`. The names
-        /// of a PLY file's are the numbers `material_index` of its faces.
+        /// Materials of this scene that replace the file's own, by their names in the file: `{ Wood = "oak"
+        /// }`. In a PLY file the names are the numbers `material_index` of its faces.
         materials: Option<Located<BTreeMap<String, Located<String>>>>,
         /// Morph targets and joints that bend the mesh.
         deformation: Option<Box<Located<DeformationEntry>>>,

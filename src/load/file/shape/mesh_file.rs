@@ -22,7 +22,7 @@ const DEFAULT_REFLECTANCE: f64 = 0.8;
 pub struct Replaced<'a> {
     /// Name in the file, and what stands for it.
     pub names: Vec<(String, MaterialId)>,
-    /// Where that is written.
+    /// Place where the materials are written.
     pub place: Option<&'a Place>,
 }
 
@@ -69,7 +69,7 @@ impl Resolver<'_> {
         Ok(loaded)
     }
 
-    /// What is replaced is there.
+    /// Checks that the replaced materials exist in the file.
     fn check_replaced(&self, file: &ModelFile, replaced: &[(String, MaterialId)], span: &Place) -> Result<(), SceneError> {
         let numbers: BTreeSet<String> = file.face_groups.iter().flatten().map(u32::to_string).collect();
         let named = file.materials.iter().map(|entry| entry.name.as_str());
@@ -112,7 +112,8 @@ impl Resolver<'_> {
         Ok(with_fewest_materials(merge(file, smooth)))
     }
 
-    /// Of a file whose faces have numbers in place of materials: `replaced` says what they stand for, and grey are those that it leaves out.
+    /// Reads a file whose faces have numbers in place of materials: `replaced` gives their materials, and
+    /// grey stands for those that it leaves out.
     fn with_grouped_faces(
         &mut self,
         path: &Path,

@@ -93,7 +93,7 @@ pub struct FilterKeys {
     pub radius: Option<Checked<FilterRadius>>,
 }
 
-/// Where the picture is taken from.
+/// The camera, from which the picture is taken.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(extend("dependentRequired" = { "aperture": ["focus_distance"], "interpolation": ["keyframes"] }, "allOf" = [{ "oneOf": [

@@ -11,7 +11,7 @@ use serde_json::json;
 use crate::choice::Choice;
 use crate::film::Layer;
 
-/// What is written beside the picture. Command-line flags override these.
+/// Files written beside the picture. Command-line flags override these.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct OutputTable {

@@ -10,7 +10,7 @@ use serde_json::{Map, json};
 
 use crate::scene::settings::{Assignment, SETTINGS, Setting, Values};
 
-/// What is written in `[render]`.
+/// Content of `[render]`.
 #[derive(Debug, Clone, Default)]
 pub struct RenderTable(pub Vec<Assignment>);
 

@@ -21,7 +21,7 @@ pub enum TextureEntry {
     Worley(WorleyEntry),
 }
 
-/// What all textures have, as one of them states it.
+/// Keys that all textures have, as one of them states them.
 #[derive(Debug, Clone, Copy)]
 pub struct CommonKeys<'e> {
     pub name: &'e Located<String>,
@@ -34,7 +34,7 @@ pub struct CommonKeys<'e> {
     pub times: Option<&'e Located<TextureName>>,
 }
 
-/// The same to be changed.
+/// Mutable references to the common keys.
 pub struct CommonKeysMut<'e> {
     pub name: &'e mut Located<String>,
     pub rotation: &'e mut Option<Number>,
@@ -56,7 +56,8 @@ macro_rules! texture_entries {
             pub rotation: Option<Number>,
             /// Added last to (u, v) as it is scaled and turned, [0, 0] when left out.
             pub offset: Option<Exactly<Number, 2>>,
-            /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
+            /// Look the texture up by `second_uvs` of meshes; shapes without them have only one set of
+            /// texture coordinates.
             pub second_uvs: Option<bool>,
             /// A normal map with `second_uvs` and this key has red and green along the directions in which `uvs` grow.
             pub bends_by_first_uvs: Option<bool>,
@@ -197,7 +198,7 @@ impl TextureEntry {
         }
     }
 
-    /// What it has whatever its kind.
+    /// The keys that textures of all kinds have.
     pub fn common(&self) -> CommonKeys<'_> {
         match self {
             Self::Image(entry) => entry.common(),

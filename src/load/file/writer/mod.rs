@@ -37,7 +37,7 @@ impl Writer<'_> {
         line(key, &self.value_of(*input))
     }
 
-    /// What stands behind the key.
+    /// The value behind the key.
     pub fn value_of(&self, input: ColorInput) -> String {
         match input {
             ColorInput::Constant(value) => colour(value),
@@ -77,7 +77,7 @@ impl Writer<'_> {
     }
 }
 
-/// What scene files call a channel.
+/// Name of a channel in scene files.
 pub fn channel_name(channel: Channel) -> &'static str {
     match channel {
         Channel::R => "r",

@@ -56,7 +56,8 @@ fn place(at: Vec2<usize>, [width, _]: [u32; 2]) -> usize {
     at.y() * width as usize + at.x()
 }
 
-/// What is written into memory, which takes all of it: pictures of a scene have sizes that the formats allow.
+/// The bytes of a picture written into memory, which cannot fail: pictures of a scene have sizes that the
+/// formats allow.
 fn written(write: impl FnOnce(&mut Cursor<Vec<u8>>) -> Option<bool>) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     let is_written = write(&mut bytes);

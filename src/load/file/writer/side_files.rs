@@ -53,7 +53,7 @@ impl SideFiles {
         &self.folder
     }
 
-    /// Whether this file is to be written.
+    /// True of a file that is to be written.
     pub fn contains(&self, path: &Path) -> bool {
         self.files.iter().any(|(file, _)| file == path)
     }
@@ -75,7 +75,8 @@ impl SideFiles {
     }
 }
 
-/// Whether there is such a file for others to name. Those of built-in and of imported scenes may be in memory alone.
+/// True where there is such a file for others to name. Files of built-in and of imported scenes may be in
+/// memory alone.
 pub fn is_on_disk(path: &Path) -> bool {
     !is_builtin(path) && path.is_file()
 }

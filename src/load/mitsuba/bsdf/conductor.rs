@@ -119,7 +119,8 @@ pub fn widths(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Widths, 
     Ok(Widths { alpha: None, alpha_u: clamped(u)?, alpha_v: clamped(v)? })
 }
 
-/// Whether the distribution of microfacets is Beckmann's; else it is GGX. Mitsuba's masks and shadows them separately.
+/// True where the distribution of microfacets is Beckmann's; else it is GGX. Mitsuba's masks and shadows them
+/// separately.
 pub fn distribution(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<bool, SceneError> {
     plugin.without_effect(&["sample_visible", "sample_all"]);
     match plugin.text("distribution")?.unwrap_or("beckmann").to_ascii_lowercase().as_str() {

@@ -1,4 +1,4 @@
-//! What the modules of BSDFs hand to each other.
+//! Values that the modules of BSDFs pass to each other.
 
 use glam::DVec3;
 

@@ -46,7 +46,7 @@ impl Converter<'_> {
         let place = shape.at();
         let mut entry = self.scene.file.material[made].clone();
         if matches!(entry, MaterialEntry::Pass(_)) {
-            // It lets all light through, and adds its own.
+            // An emitting null surface lets all light through, and adds its own.
             let black = self.extra(shape, "black", black());
             let through = shape.possible(BlendWeightEntry::constant(1.0))?;
             entry = MaterialEntry::Blend(blend::Keys::of([plain.clone(), black], through, &place));
@@ -54,7 +54,7 @@ impl Converter<'_> {
         let common = entry.common_mut();
         *common.name = place.at(String::new());
         *common.emission = Some(place.at(shape.possible(light.colour(&place))?));
-        // The same surface with the same light is one material.
+        // Surfaces with equal scattering and emission share one material.
         let key = format!("{entry:?}");
         if let Some(known) = self.lamps.get(&key) {
             return Ok(known.clone());

@@ -1,5 +1,5 @@
-//! What kernels read of a packed scene, written after the shaders and not after the checks: every index that they compute from it, with
-//! their arithmetic of 32 bits, and every loop that they count by it.
+//! The reads of kernels in a packed scene, written after the shaders and not after the checks: every index
+//! that they compute from it, with their arithmetic of 32 bits, and every loop that they count by it.
 
 use std::cell::{Cell, RefCell};
 use std::collections::HashSet;
@@ -12,7 +12,7 @@ use crate::packed::tables::Tables;
 use crate::packed::{NONE, PackedScene};
 use crate::scene::LobeKind;
 
-/// What a kernel would do that it must not.
+/// A read, or the access that a kernel must not make.
 type Read<T> = Result<T, String>;
 
 /// Steps after which a kernel is taken to be in a loop without an end: far more than the scenes of these tests have use for.
@@ -22,7 +22,8 @@ pub struct Kernel<'a> {
     scene: &'a PackedScene,
     tables: Tables,
     steps: Cell<u64>,
-    /// What was followed before: materials and textures by their number, which lead to the same place every time.
+    /// Records that were followed before: materials and textures by their number, which lead to the same
+    /// words every time.
     known: RefCell<HashSet<(Part, u32)>>,
 }
 
@@ -61,7 +62,7 @@ impl Kernel<'_> {
         if self.steps.get() > MOST_STEPS { Err("a loop without an end".to_owned()) } else { Ok(()) }
     }
 
-    /// Whether a part is met for the first time.
+    /// True where a part is met for the first time.
     fn is_new(&self, part: Part, number: u32) -> bool {
         self.known.borrow_mut().insert((part, number))
     }
@@ -78,7 +79,7 @@ impl Kernel<'_> {
         if index as usize >= textures.texel_words() {
             return Err(format!("texel word {index}"));
         }
-        // What colours there are leads nowhere.
+        // Colours are not followed as indices.
         Ok((index as usize).checked_sub(textures.first_word()).map_or(0, |word| textures.words[word]))
     }
 
@@ -98,7 +99,7 @@ impl Kernel<'_> {
                 let first = entry & 0x00ff_ffff;
                 for primitive in first..=first + (entry >> 24 & 3) {
                     if let Some(root) = self.primitive(primitive)? {
-                        // What waits beside it, the rest of the leaf, and the mark of the way back.
+                        // Entries that wait beside it: the rest of the leaf, and the mark of the way back.
                         to_visit.push((root, depth + 3, true));
                         if in_group {
                             return Err("an instance within an instance".to_owned());
@@ -332,7 +333,7 @@ impl Kernel<'_> {
             for light in [entry, alias] {
                 let flags = self.light_word(light, 0)?[0];
                 let [attributes, material] = [self.light_word(light, 3)?[3], self.light_word(light, 4)?[3]];
-                // What a delta light throws.
+                // The picture of a projection light.
                 if LightKind::DELTA.iter().any(|&kind| kind as u32 == flags & 255) {
                     let texture = self.light_word(light, 3)?[3];
                     if texture != NONE {
@@ -411,7 +412,7 @@ impl Kernel<'_> {
                 (0..3).try_for_each(|channel| self.texel(map.first_texel.wrapping_add(place).wrapping_add(channel)).map(drop))?;
             }
         }
-        // What the look-up clamps to.
+        // The cell to which the look-up clamps.
         let [last_row, last_column] = [map.grid_height, map.grid_width].map(|side| side.wrapping_sub(1));
         self.cell(map, last_column, last_row)?;
         const SIDE: u64 = 1 << 31;

@@ -32,7 +32,7 @@ fn words_mut(scene: &mut PackedScene, array: Array) -> &mut [u32] {
     }
 }
 
-/// What is written over a word.
+/// A function that replaces a word.
 type Corruption = Box<dyn Fn(u32) -> u32 + Sync>;
 
 /// A place in a packed scene that can be overwritten.
@@ -94,7 +94,8 @@ fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
             }
         }
     }
-    // Of a motion, the number of steps and their kinds: the fourth words of the first row and of every second one behind it.
+    // In a motion, the number of steps and their kinds: the fourth words of the first row and of every second
+    // one behind it.
     let mut row = 0;
     while row < scene.motions.len() {
         let rows = 1 + 2 * scene.motions[row][3].to_bits() as usize;
@@ -111,14 +112,14 @@ fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
     if scene.environment.map.is_some() {
         places.extend((0..8).map(|field| (Place::Map(field), true)));
     }
-    // Where the grid of cells of lights begins, and how large its boxes are, may be anything.
+    // The begin of the grid of cells of lights and the size of its boxes may have any value.
     places.extend((0..scene.light_cells.len()).map(|word| (Place::LightCells(word), word >= 4)));
     let walks_nodes = scene.hierarchy.traversal == Traversal::Bvh;
     places.extend([(Place::StackSize, walks_nodes), (Place::PrimitiveCount, true)]);
     places
 }
 
-/// What to write over a word: ends of arrays and of fields, and the word with a bit turned over.
+/// The values that replace a word: ends of arrays and of fields, and the word with one bit inverted.
 fn corruptions(scene: &PackedScene) -> Vec<Corruption> {
     let mut values = vec![0, 1, 2, 3, 7, 11, 255, 256, 1 << 10, 1 << 24, 1 << 28, 1 << 30, (1 << 31) - 1, 1 << 31, BEYOND, NONE];
     for length in Array::ALL.map(|array| array.len(scene) as u32).into_iter().chain([scene.textures.texel_words() as u32]) {
@@ -134,7 +135,7 @@ fn corruptions(scene: &PackedScene) -> Vec<Corruption> {
     corruptions
 }
 
-/// What passes the checks can be followed by a kernel.
+/// Scenes that pass the checks can be followed by a kernel.
 fn assert_safe(scene: &PackedScene, what: &dyn Fn() -> String) {
     if scene.validate().is_ok()
         && let Err(found) = kernel::follow(scene)

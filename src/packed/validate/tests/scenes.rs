@@ -185,7 +185,7 @@ fn everything() -> Scene {
     }
     scene.shapes.push(Shape { portal: true, ..shape(sheet(5.0), 10) });
     scene.shapes.push(Shape { portal: true, ..shape(ball(9.0), 10) });
-    // What has no texture coordinates has no texture either.
+    // Geometry without texture coordinates has no texture either.
     scene.materials.push(plain("grey", MaterialKind::Diffuse { reflectance: grey }));
     let last = scene.materials.len() - 1;
     scene.shapes[7].material = last;

@@ -17,7 +17,7 @@ pub use placement::Placement;
 pub use primitive::Primitive;
 pub use triangle::Triangle;
 
-/// What chooses among the rows of the table of shapes, which are a module each.
+/// Dispatch over the rows of the table of shapes, which are a module each.
 macro_rules! modules {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         /// The primitives of a shape in the world, each with the number of the face it is: of a mesh, or of a box (−x +x −y +y −z +z).
