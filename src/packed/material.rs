@@ -4,8 +4,6 @@
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
-use glam::DVec3;
-
 use super::blend_parts::{MOST_WEIGHTS, Part, Parts, lambert_of_the_mean, parts};
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::constants::NONE;
@@ -16,6 +14,7 @@ use crate::scene::{
     Attenuation, BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Masking, Material, MaterialId, MaterialKind, Scene,
 };
 use crate::shader::shared::{Constant, Constants, shared_constants};
+use crate::spectrum::Spectrum;
 
 /// Above a packed material's kind stands its lobe's form.
 pub(super) const FORM_SHIFT: u32 = 8;
@@ -168,12 +167,12 @@ pub struct PackedMaterials {
 /// A colour as a constant factor and a texture index or NONE.
 pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
     match input {
-        ColorInput::Constant(color) => (color.as_vec3().to_array(), NONE),
+        ColorInput::Constant(color) => (color.to_f32(), NONE),
         ColorInput::Texture(texture) => ([1.0; 3], *texture as u32),
-        ColorInput::ScaledTexture(texture, factor) => (factor.as_vec3().to_array(), *texture as u32),
+        ColorInput::ScaledTexture(texture, factor) => (factor.to_f32(), *texture as u32),
         // That it is squared stands beside the scalar it is for: colours never are.
         ColorInput::SquaredTexture(texture) => ([1.0; 3], *texture as u32),
-        ColorInput::Channel(input) => (input.factor.as_vec3().to_array(), mention(input.texture, Some(input.channel))),
+        ColorInput::Channel(input) => (input.factor.to_f32(), mention(input.texture, Some(input.channel))),
     }
 }
 
@@ -308,7 +307,7 @@ impl PackedMaterials {
             && let Some(reflectance) = lambert_of_the_mean(scene, &plain)
         {
             packed.kind_and_form = LobeKind::Diffuse as u32;
-            packed.color0 = reflectance.as_vec3().to_array();
+            packed.color0 = reflectance.to_f32();
             return Ok(packed);
         }
         if !emitting_blends.is_empty() || plain.iter().any(|part| scene.materials[part.material].emission.is_some()) {
@@ -319,7 +318,7 @@ impl PackedMaterials {
         }
         if let Some(attenuation) = volume {
             packed.emission_flags |= ENCLOSES_VOLUME;
-            packed.color0 = attenuation.extinction().as_vec3().to_array();
+            packed.color0 = attenuation.extinction().to_f32();
         }
         packed.color1 = [self.parts.len(), plain.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
         for part in plain.into_iter().chain(emitting_blends) {
@@ -447,8 +446,8 @@ impl PackedMaterial {
 
 /// What a material sends out by itself, each part with the share of it that a light's power counts: the weight of a constant
 /// weight, one half of any other's.
-pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> DVec3) -> DVec3 {
-    let mut sum = DVec3::ZERO;
+pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> Spectrum) -> Spectrum {
+    let mut sum = Spectrum::BLACK;
     let mut to_visit = vec![(id, 1.0)];
     while let Some((id, share)) = to_visit.pop() {
         let material = &scene.materials[id];

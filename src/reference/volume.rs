@@ -5,12 +5,13 @@ use glam::DVec3;
 use super::intersect::Surface;
 use crate::scene::Scene;
 use crate::scene::material::FARTHEST;
+use crate::spectrum::Spectrum;
 
 /// Volumes behind surfaces.
 #[derive(Debug, Clone)]
 pub struct Volumes {
     /// The extinction behind a surface of each material; None: such a surface encloses nothing. Empty: none does.
-    behind: Vec<Option<DVec3>>,
+    behind: Vec<Option<Spectrum>>,
 }
 
 impl Volumes {
@@ -24,7 +25,7 @@ impl Volumes {
     }
 
     /// Extinction on the side of a surface that `toward` points to, given that on wo's side.
-    pub fn extinction_towards(&self, surface: &Surface, front: bool, toward: DVec3, here: DVec3) -> DVec3 {
+    pub fn extinction_towards(&self, surface: &Surface, front: bool, toward: DVec3, here: Spectrum) -> Spectrum {
         let Some(&Some(extinction)) = self.behind.get(surface.owner.material) else { return here };
         let leads_to_front = toward.dot(surface.point.normal) > 0.0;
         if leads_to_front == front {
@@ -32,15 +33,15 @@ impl Volumes {
         } else if front {
             extinction
         } else {
-            DVec3::ZERO
+            Spectrum::BLACK
         }
     }
 }
 
 /// Beer and Lambert's law: the share of light that is left after a distance.
-pub fn transmittance(extinction: DVec3, distance: f64) -> DVec3 {
-    if extinction == DVec3::ZERO {
-        return DVec3::ONE;
+pub fn transmittance(extinction: Spectrum, distance: f64) -> Spectrum {
+    if extinction.is_black() {
+        return Spectrum::WHITE;
     }
     (extinction * -distance.min(FARTHEST)).exp()
 }
@@ -52,11 +53,11 @@ mod tests {
 
     #[test]
     fn light_is_left_as_the_colour_says() {
-        let amber = Attenuation { color: DVec3::new(1.0, 0.5, 0.0), distance: 2.0 };
+        let amber = Attenuation { color: Spectrum::new(1.0, 0.5, 0.0), distance: 2.0 };
         let left = transmittance(amber.extinction(), 2.0);
-        assert!((left - DVec3::new(1.0, 0.5, 1e-6)).length() < 1e-12, "{left}");
+        assert!(left.distance(Spectrum::new(1.0, 0.5, 1e-6)) < 1e-12, "{left}");
         let twice = transmittance(amber.extinction(), 4.0);
-        assert!((twice - left * left).length() < 1e-12, "{twice}");
-        assert_eq!(transmittance(amber.extinction(), f64::INFINITY), DVec3::X);
+        assert!(twice.distance(left * left) < 1e-12, "{twice}");
+        assert_eq!(transmittance(amber.extinction(), f64::INFINITY), Spectrum::new(1.0, 0.0, 0.0));
     }
 }

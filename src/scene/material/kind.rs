@@ -1,12 +1,11 @@
 //! The types of materials, and the table that all their representations hang on.
 
-use glam::DVec3;
-
 use super::blend_weight::BlendWeight;
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
 use super::principled::Principled;
 use crate::scene::texture::ColorInput;
+use crate::spectrum::Spectrum;
 
 /// Index into [`crate::scene::Scene::materials`].
 pub type MaterialId = usize;
@@ -76,7 +75,7 @@ pub enum MaterialKind {
 #[derive(Debug, Clone)]
 pub enum ConductorFresnel {
     /// Complex index of refraction eta + ik, per RGB channel.
-    Complex { eta: DVec3, k: DVec3 },
+    Complex { eta: Spectrum, k: Spectrum },
     /// Schlick's approximation from the reflectance at normal incidence.
     Reflectance(ColorInput),
 }
@@ -185,7 +184,7 @@ fn interface_parameters(interface: &PlasticInterface) -> Vec<ColorInput> {
     let mut further = vec![ColorInput::grey(interface.internal_reflectance())];
     if let Some(table) = interface.transmittance_table() {
         let at = |node: usize| f64::from(table[node.min(TRANSMITTANCE_NODES - 1)]);
-        let entry = |first: usize| ColorInput::Constant(DVec3::new(at(first), at(first + 1), at(first + 2)));
+        let entry = |first: usize| ColorInput::Constant(Spectrum::new(at(first), at(first + 1), at(first + 2)));
         further.extend((0..TRANSMITTANCE_ENTRIES).map(|index| entry(3 * index)));
     }
     further
@@ -288,9 +287,9 @@ impl Principled {
             | if self.attenuation.is_some() { ATTENUATES } else { 0 }
             | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 }
             | if direction.is_some() { DIRECTED } else { 0 };
-        let extinction = self.attenuation.map_or(DVec3::ZERO, |attenuation| attenuation.extinction());
+        let extinction = self.attenuation.map_or(Spectrum::BLACK, |attenuation| attenuation.extinction());
         let [coat_normal, scale] = self.coat_normal_map.map_or([zero; 2], |map| {
-            let scale = DVec3::new(map.scale.max(0.0), (-map.scale).max(0.0), 0.0);
+            let scale = Spectrum::new(map.scale.max(0.0), (-map.scale).max(0.0), 0.0);
             [ColorInput::Texture(map.texture), ColorInput::Constant(scale)]
         });
         let mut further = vec![
@@ -300,7 +299,7 @@ impl Principled {
             self.clearcoat,
             self.clearcoat_roughness,
             self.anisotropy.unwrap_or(zero),
-            ColorInput::Constant(DVec3::new(1.0 + turned.cos(), 1.0 + turned.sin(), 0.0)),
+            ColorInput::Constant(Spectrum::new(1.0 + turned.cos(), 1.0 + turned.sin(), 0.0)),
             ColorInput::Constant(extinction),
             self.sheen_color,
             self.sheen_roughness,
