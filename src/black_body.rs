@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::math::xyz_to_rec709;
+use crate::spectrum::Spectrum;
 
 /// Wavelengths that are added up, nm: a tenth of what the eye sees of a black body changes within a hundred of them.
 const SHORTEST: u32 = 360;
@@ -13,9 +14,9 @@ const SECOND_CONSTANT: f64 = 1.438_776_877e7;
 
 /// Linear Rec.709 colour of a black body of this temperature in kelvin, its largest channel 1. Below some 1900 K the colour lies outside of
 /// Rec.709: the blue channel is then 0.
-pub fn black_body(kelvin: f64) -> DVec3 {
-    let linear = xyz_to_rec709(tristimulus(kelvin)).max(DVec3::ZERO);
-    linear / linear.max_element()
+pub fn black_body(kelvin: f64) -> Spectrum {
+    let linear = xyz_to_rec709(tristimulus(kelvin)).max(Spectrum::BLACK);
+    linear / linear.max_component()
 }
 
 /// CIE 1931 XYZ, up to a factor: Planck's law times the matching functions.
@@ -68,9 +69,9 @@ mod tests {
         let mut before = f64::INFINITY;
         for kelvin in (1000..=40_000).step_by(500) {
             let color = black_body(kelvin.into());
-            assert!(color.max_element() == 1.0 && color.min_element() >= 0.0, "{kelvin}: {color}");
-            let ratio = color.x / color.z.max(1e-9);
-            assert!(ratio <= before, "{kelvin}: {color}");
+            assert!(color.max_component() == 1.0 && color.min_component() >= 0.0, "{kelvin}: {color:?}");
+            let ratio = color.r() / color.b().max(1e-9);
+            assert!(ratio <= before, "{kelvin}: {color:?}");
             before = ratio;
         }
     }

@@ -123,6 +123,8 @@ pub mod scene_writer;
 #[doc(hidden)]
 pub mod shader;
 #[doc(hidden)]
+pub mod spectrum;
+#[doc(hidden)]
 pub mod texture;
 #[doc(hidden)]
 pub mod verify;

@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::spectrum::Spectrum;
+
 /// Relative size of the error of a surface point that devices compute in f32: some 16 rounding errors (2⁻²⁴ each).
 pub const POINT_ERROR: f64 = 1.0e-6;
 /// Distance by which a shadow ray may be off to the side at its end, as a share of its length: rounding of its direction.
@@ -9,22 +11,17 @@ pub const DIRECTION_ERROR: f64 = 2.5e-7;
 /// Share of its length after which a shadow ray ends, on top of the light's own error: one rounding error of its distance.
 pub const SHADOW_SHORTENING: f64 = 0.999_999;
 
-/// Luminance of a linear Rec.709 colour.
-pub fn luminance(color: DVec3) -> f64 {
-    color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
-}
-
 /// Linear Rec.709 of CIE XYZ: the inverse of the primaries and the white of Rec. ITU-R BT.709.
-pub fn xyz_to_rec709(xyz: DVec3) -> DVec3 {
+pub fn xyz_to_rec709(xyz: DVec3) -> Spectrum {
     let [x, y, z] = xyz.to_array();
-    DVec3::new(
+    Spectrum::new(
         3.240_969_941_904_521 * x - 1.537_383_177_570_093 * y - 0.498_610_760_293_003 * z,
         -0.969_243_636_280_87 * x + 1.875_967_501_507_72 * y + 0.041_555_057_407_175 * z,
         0.055_630_079_696_993 * x - 0.203_976_958_888_976 * y + 1.056_971_514_242_878 * z,
     )
 }
 
-/// The luminance of a film's pixel: [`luminance`] in single precision.
+/// The luminance of a film's pixel: [`Spectrum::luminance`] in single precision.
 pub fn luminance_f32([r, g, b]: [f32; 3]) -> f32 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }

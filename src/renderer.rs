@@ -10,8 +10,8 @@ use std::ops::Range;
 use std::time::Instant;
 
 use crate::film::Band;
-use crate::math::luminance;
 use crate::scene::{InvalidScene, Scene};
+use crate::spectrum::Spectrum;
 use sink::Sink;
 use state::BatchState;
 
@@ -136,7 +136,7 @@ impl RenderReport {
     /// The share of the light at the film that clamping took, of a picture of this mean radiance whose samples were clamped at `limit`.
     pub fn clamped_light(&self, limit: f64, mean: [f64; 3]) -> f64 {
         let taken = self.clamped_units as f64 / state::CLAMP_UNITS * limit;
-        let kept = luminance(mean.into()) * self.samples as f64;
+        let kept = Spectrum::from_rgb(mean).luminance() * self.samples as f64;
         if taken > 0.0 { taken / (taken + kept) } else { 0.0 }
     }
 }

@@ -1,10 +1,8 @@
 //! The setting `clamp`: samples that are too bright are darkened, and what that takes is counted.
 
-use glam::DVec3;
-
 use crate::film::KernelLayer;
-use crate::math::luminance;
 use crate::renderer::state::{CLAMP_UNITS, MOST_CLAMP_UNITS};
+use crate::spectrum::Spectrum;
 
 /// Clamping of one pixel in one pass.
 pub struct Clamp {
@@ -25,14 +23,14 @@ impl Clamp {
     }
 
     /// The sample, no brighter than allowed, in its own colour. One that is not finite is left to the film.
-    pub fn darken(&mut self, radiance: DVec3) -> DVec3 {
-        let brightest = radiance.max_element();
+    pub fn darken(&mut self, radiance: Spectrum) -> Spectrum {
+        let brightest = radiance.max_component();
         if !(brightest > self.limit && radiance.is_finite()) {
             return radiance;
         }
         let darkened = radiance * (self.limit / brightest);
         self.samples += 1;
-        self.taken += luminance(radiance - darkened);
+        self.taken += (radiance - darkened).luminance();
         darkened
     }
 

@@ -3,13 +3,12 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::DVec3;
-
 use crate::film::{Band, rounded};
 use crate::renderer::state::{BatchState, FilmState, Tally};
 use crate::renderer::{Batch, Observer, Stopping};
 use crate::sampling::Sampling;
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// Rows of a band.
 pub const BAND_ROWS: u32 = 64;
@@ -17,7 +16,7 @@ pub const BAND_ROWS: u32 = 64;
 /// Sums over the samples of one pixel. In f64, a million samples leave a relative error below 1e-10.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PixelSum {
-    pub radiance: DVec3,
+    pub radiance: Spectrum,
     pub squared_luminance: f64,
     pub samples: u32,
 }
@@ -74,7 +73,7 @@ impl Group {
         let sum = |pixel: usize| match resume {
             Some(state) if batch.takes_part(first + pixel) && (state.done > 0 || pixel < state.reached as usize) => {
                 let ([r, g, b, squared_luminance], samples) = state.film.double(pixel);
-                PixelSum { radiance: DVec3::new(r, g, b), squared_luminance, samples }
+                PixelSum { radiance: Spectrum::new(r, g, b), squared_luminance, samples }
             }
             _ => PixelSum::default(),
         };
@@ -92,7 +91,7 @@ impl Group {
     /// The group as a state to go on from.
     pub fn state(&self, batch: &BatchSamples<'_>, tally: Tally) -> BatchState {
         let pixels = || self.bands.iter().flat_map(|band| &band.pixels);
-        let sum = |sum: &PixelSum| [sum.radiance.x, sum.radiance.y, sum.radiance.z, sum.squared_luminance];
+        let sum = |sum: &PixelSum| sum.radiance.extend(sum.squared_luminance).to_array();
         let film = FilmState::Double { sums: pixels().map(sum).collect(), samples: pixels().map(|sum| sum.samples).collect() };
         let first_row = self.bands.first().map_or(0, |band| band.first_row);
         BatchState {
@@ -109,7 +108,7 @@ impl Group {
 impl BandSums {
     pub fn finish(&self, width: u32, batch: &BatchSamples<'_>, with_counts: bool) -> Band {
         let scale = |sum: &PixelSum| 1.0 / f64::from(sum.samples.max(1));
-        let (mean, remainder) = self.pixels.iter().map(|sum| rounded((sum.radiance * scale(sum)).to_array())).unzip();
+        let (mean, remainder) = self.pixels.iter().map(|sum| rounded((sum.radiance * scale(sum)).to_rgb())).unzip();
         Band {
             first_row: self.first_row,
             width,

@@ -3,14 +3,12 @@
 use std::ops::{Add, Range};
 use std::time::{Duration, Instant};
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clamp::Clamp;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use crate::film::{KernelLayer, MOST_FILM_PIXELS};
 use crate::learn::{self, Reasons, Settled};
-use crate::math::luminance;
 use crate::reference::coverage::FirstOwners;
 use crate::reference::integrator::Integrator;
 use crate::reference::intersect::Ray;
@@ -24,6 +22,7 @@ use crate::renderer::{
 };
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// Vertices after which it is looked again whether a path should be given up.
 const VERTICES_BETWEEN_LOOKS: u32 = 4096;
@@ -159,7 +158,7 @@ impl ReferenceRenderer {
 
     /// The radiance of one sample of one pixel, before the film refuses what is not finite.
     pub fn radiance_of_sample(&self, x: u32, y: u32, sample: u32) -> [f64; 3] {
-        self.follow(x, y, sample, &mut RayCounter::default()).to_array()
+        self.follow(x, y, sample, &mut RayCounter::default()).to_rgb()
     }
 
     /// One path with all that happened along it.
@@ -170,11 +169,11 @@ impl ReferenceRenderer {
     }
 
     /// The radiance of one sample of one pixel with every intermediate result rounded as `rounding` does it.
-    pub fn rounded_radiance(&self, x: u32, y: u32, sample: u32, rounding: &mut Rounding) -> DVec3 {
+    pub fn rounded_radiance(&self, x: u32, y: u32, sample: u32, rounding: &mut Rounding) -> Spectrum {
         self.follow(x, y, sample, rounding)
     }
 
-    fn follow<V: PathVisitor>(&self, x: u32, y: u32, sample: u32, visitor: &mut V) -> DVec3 {
+    fn follow<V: PathVisitor>(&self, x: u32, y: u32, sample: u32, visitor: &mut V) -> Spectrum {
         let Scene { film, render, .. } = self.integrator.scene();
         let sampling = Sampling::from(render);
         let point = SequencePoint::new(&sampling, sample);
@@ -192,7 +191,7 @@ impl ReferenceRenderer {
         let camera = self.integrator.view_axis();
         for point in points {
             let sampler = PathSampler::new(sampling, pixel, point);
-            let mut radiance = DVec3::ZERO;
+            let mut radiance = Spectrum::BLACK;
             if let Some(layer) = self.layer {
                 let mut visitor = LayerVisitor::new(layer, camera, &mut watched);
                 let found = clamp.darken(self.integrator.radiance(x, y, &sampler, &mut visitor));
@@ -209,9 +208,9 @@ impl ReferenceRenderer {
             }
             (samples, traced) = (samples + 1, traced + 1);
             // Normals and positions may well be negative.
-            if is_acceptable(if self.layer.is_some() { radiance.abs() } else { radiance }) {
+            if is_acceptable(if self.layer.is_some() { radiance.map(f64::abs) } else { radiance }) {
                 sum.radiance += radiance;
-                sum.squared_luminance += luminance(radiance).powi(2);
+                sum.squared_luminance += radiance.luminance().powi(2);
             } else {
                 non_finite += 1;
             }
@@ -373,10 +372,10 @@ impl Progress<'_> {
 }
 
 /// A film takes radiance that is finite, in f32 too, and not negative.
-fn is_acceptable(radiance: DVec3) -> bool {
+fn is_acceptable(radiance: Spectrum) -> bool {
     // Its square goes into the second moment.
-    let square = luminance(radiance).powi(2) as f32;
-    radiance.as_vec3().is_finite() && square.is_finite() && radiance.min_element() >= 0.0
+    let square = radiance.luminance().powi(2) as f32;
+    radiance.to_f32().into_iter().all(f32::is_finite) && square.is_finite() && radiance.min_component() >= 0.0
 }
 
 impl Renderer for ReferenceRenderer {

@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::unrolled::Unrolled;
-use crate::math::luminance;
 use crate::scene::texture::{mean_of_channel, mean_of_texture};
 use crate::scene::{BlendWeight, MaterialId, MaterialKind, Scene};
 use crate::texture::{self, Coordinates};
@@ -97,7 +96,7 @@ fn count(scene: &Scene, material: MaterialId, most: usize) -> Option<usize> {
 
 fn luminance_at(scene: &Scene, material: MaterialId, uv: Coordinates) -> f64 {
     let here = &scene.materials[material];
-    let own = here.emission.as_ref().map_or(0.0, |emission| luminance(texture::evaluate(scene, &emission.radiance, uv)));
+    let own = here.emission.as_ref().map_or(0.0, |emission| texture::evaluate(scene, &emission.radiance, uv).luminance());
     let MaterialKind::Blend { materials: [first, second], weight } = &here.kind else { return own };
     let weight = weight_at(scene, weight, Some(uv)).unwrap_or(0.5);
     let part = |id: MaterialId, share: f64| if share > 0.0 { share * luminance_at(scene, id, uv) } else { 0.0 };
@@ -107,7 +106,7 @@ fn luminance_at(scene: &Scene, material: MaterialId, uv: Coordinates) -> f64 {
 /// Positive where anything of the material can shine: a texture whose mean is at an end of what a weight can be counts as one half.
 fn mean_luminance(scene: &Scene, material: MaterialId) -> f64 {
     let here = &scene.materials[material];
-    let own = here.emission.as_ref().map_or(0.0, |emission| luminance(texture::mean(scene, &emission.radiance)));
+    let own = here.emission.as_ref().map_or(0.0, |emission| texture::mean(scene, &emission.radiance).luminance());
     let MaterialKind::Blend { materials: [first, second], weight } = &here.kind else { return own };
     let of_textures = mean_of_weight(scene, weight).filter(|mean| (1e-9..=1.0 - 1e-9).contains(mean));
     let weight = weight_at(scene, weight, None).or(of_textures).unwrap_or(0.5);
@@ -120,7 +119,7 @@ fn weight_at(scene: &Scene, weight: &BlendWeight, uv: Option<Coordinates>) -> Op
     match *weight {
         BlendWeight::Constant { value } => Some(value),
         BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Front | BlendWeight::Camera => None,
-        BlendWeight::Texture { texture } => Some(luminance(texture::look_up(&scene.textures, texture, uv?)).clamp(0.0, 1.0)),
+        BlendWeight::Texture { texture } => Some(texture::look_up(&scene.textures, texture, uv?).luminance().clamp(0.0, 1.0)),
         BlendWeight::Channel { texture, channel, factor } => {
             Some((factor * texture::look_up_channel(&scene.textures, texture, channel, uv?)).clamp(0.0, 1.0))
         }
@@ -132,7 +131,7 @@ fn weight_at(scene: &Scene, weight: &BlendWeight, uv: Option<Coordinates>) -> Op
 /// The mean of what a weight looks up, where it is that or one minus it.
 fn mean_of_weight(scene: &Scene, weight: &BlendWeight) -> Option<f64> {
     match *weight {
-        BlendWeight::Texture { texture } => Some(luminance(mean_of_texture(&scene.textures, texture))),
+        BlendWeight::Texture { texture } => Some(mean_of_texture(&scene.textures, texture).luminance()),
         BlendWeight::Channel { texture, channel, factor } => Some(factor * mean_of_channel(&scene.textures, texture, channel)),
         BlendWeight::Reverse { ref of } => mean_of_weight(scene, of).map(|mean| 1.0 - mean),
         _ => None,

@@ -3,8 +3,8 @@
 use glam::{DMat2, DVec2};
 
 use super::level::Level;
-use crate::math::luminance;
 use crate::scene::{ChannelInput, ColorInput, ImageTexture, Material, Scene, TextureFilter, TextureKind, TextureWrap};
+use crate::spectrum::Spectrum;
 use crate::texture::Coordinates;
 
 /// Most cells along either side of a square. Of larger pictures, cells hold several texels.
@@ -52,10 +52,12 @@ impl Picture {
         let texels = &image.image.texels;
         let values: Vec<f64> = match input {
             ColorInput::Channel(ChannelInput { channel, factor, .. }) => {
-                texels.channel(channel).map(|value| luminance(factor) * f64::from(value)).collect()
+                texels.channel(channel).map(|value| factor.luminance() * f64::from(value)).collect()
             }
-            ColorInput::ScaledTexture(_, factor) => texels.colors().map(|texel| luminance(texel.as_dvec3() * factor)).collect(),
-            _ => texels.colors().map(|texel| luminance(texel.as_dvec3())).collect(),
+            ColorInput::ScaledTexture(_, factor) => {
+                texels.colors().map(|texel| (Spectrum::from_f32(texel.to_array()) * factor).luminance()).collect()
+            }
+            _ => texels.colors().map(|texel| Spectrum::from_f32(texel.to_array()).luminance()).collect(),
         };
         let finest = Level { width, height, values };
         let finest = match image.filter {

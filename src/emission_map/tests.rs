@@ -6,12 +6,13 @@ use super::*;
 use crate::scene::{
     BlendWeight, ColorInput, Emission, ImageData, ImageTexture, Material, Texture, TextureFilter, TextureKind, TextureWrap,
 };
+use crate::spectrum::Spectrum;
 
 /// A scene of one material that emits what an image shows.
 fn lamp(image: ImageTexture, rotation_degrees: f64) -> Scene {
     let mut texture = Texture::new("picture", TextureKind::Image(image));
     texture.transform.rotation_degrees = rotation_degrees;
-    let emission = Some(Emission { radiance: ColorInput::ScaledTexture(0, DVec3::splat(2.0)), two_sided: false });
+    let emission = Some(Emission { radiance: ColorInput::ScaledTexture(0, Spectrum::grey(2.0)), two_sided: false });
     let material = Material { name: "lamp".into(), kind: MaterialKind::Emissive, normal_map: None, emission, two_sided: true };
     let mut scene = Scene { textures: vec![texture], materials: vec![material], ..Scene::default() };
     let quad = crate::scene::Rectangle { corner: DVec3::ZERO, edge_u: DVec3::X, edge_v: DVec3::Y };
@@ -57,7 +58,7 @@ fn means_are_those_of_what_is_looked_up() {
     for ((filter, wrap), turn) in EACH.into_iter().flat_map(|each| [(each, 0.0), (each, 30.0)]) {
         let scene = lamp(image([7, 5], filter, wrap, noise), turn);
         let maps = EmissionMaps::new(&scene);
-        let expected = mean_by_points(&triangle, |uv| 2.0 * crate::texture::look_up(&scene.textures, 0, uv).x);
+        let expected = mean_by_points(&triangle, |uv| 2.0 * crate::texture::look_up(&scene.textures, 0, uv).r());
         let mean = maps.luminance(0, &part(triangle)).expect("it is an image");
         assert!((mean / expected - 1.0).abs() < 5e-3, "{filter:?} {wrap:?} {turn}: {mean} and {expected}");
     }
@@ -97,7 +98,7 @@ fn rectangles_are_drawn_by_what_they_show() {
         assert!(at(2.0, 1.0) > 15.0, "{filter:?}: {}", at(2.0, 1.0));
         for (x, y) in (0..64).flat_map(|x| (0..64).map(move |y| (f64::from(x) / 8.0 - 0.4, f64::from(y) / 8.0 - 0.4))) {
             let uv = DVec2::new((x + 0.5) / 8.0, 1.0 - (y + 0.5) / 8.0);
-            let shines = crate::texture::look_up(&scene.textures, 0, uv).x > 0.0;
+            let shines = crate::texture::look_up(&scene.textures, 0, uv).r() > 0.0;
             assert!(at(x, y) > 0.0 || !shines, "{filter:?}: {x} {y}");
         }
         assert_eq!(at(6.0, 6.0), 0.0);
@@ -113,7 +114,7 @@ fn rectangles_are_drawn_by_what_they_show() {
 #[test]
 fn functions_are_looked_at_in_points() {
     let triangle = [DVec2::new(0.13, 0.2), DVec2::new(0.9, 0.31), DVec2::new(0.4, 0.97)];
-    let (a, b) = (DVec3::splat(0.1), DVec3::splat(3.0));
+    let (a, b) = (Spectrum::grey(0.1), Spectrum::grey(3.0));
     let checker = TextureKind::Checker { a, b, scale: [3.0, 5.0] };
     let kinds = [
         checker.clone(),
@@ -126,10 +127,10 @@ fn functions_are_looked_at_in_points() {
         scene.textures[0].kind = kinds[index].clone();
         scene.textures[0].times = is_product.then_some(1);
         let maps = EmissionMaps::new(&scene);
-        let at = |uv: DVec2| 2.0 * crate::texture::look_up(&scene.textures, 0, uv).x;
+        let at = |uv: DVec2| 2.0 * crate::texture::look_up(&scene.textures, 0, uv).r();
         let expected = mean_by_points(&triangle, at);
         let found = maps.luminance(0, &part(triangle)).expect("it varies");
-        let floor = 0.005 * 2.0 * crate::scene::texture::mean_of_texture(&scene.textures, 0).x;
+        let floor = 0.005 * 2.0 * crate::scene::texture::mean_of_texture(&scene.textures, 0).r();
         assert!((found - floor - expected).abs() < 0.02 * expected, "{index} {is_product}: {found} and {expected}");
         // The points of a sphere are even by area.
         let steps = 400;

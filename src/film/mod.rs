@@ -6,7 +6,7 @@ mod layer;
 pub use count::{count_in, count_word};
 pub use layer::{KernelLayer, Layer, PartChannels};
 
-use crate::math::luminance;
+use crate::spectrum::Spectrum;
 
 /// Most pixels of a film that is rendered as a whole: those of an 8K picture, which take 1 GiB on a device. Larger pictures are
 /// rendered in bands, one after the other, so that memory stays bounded.
@@ -81,7 +81,7 @@ pub fn second_moment(mean: [f64; 3], variance: [f64; 3], samples: f64) -> f64 {
 }
 
 fn luminance_of(mean: [f64; 3]) -> f64 {
-    luminance(glam::DVec3::from_array(mean))
+    Spectrum::from_rgb(mean).luminance()
 }
 
 #[cfg(test)]

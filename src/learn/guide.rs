@@ -24,6 +24,7 @@ use crate::sampling::Sampling;
 use crate::sampling::guide::{Arrival, Guide, learn};
 use crate::sampling::hash::mix;
 use crate::scene::{Guiding, NumberOrAuto, PixelSampler, SamplerKind, Scene};
+use crate::spectrum::Spectrum;
 
 /// Rounds, each of twice as many paths as the one before.
 const ROUNDS: usize = 5;
@@ -195,7 +196,7 @@ struct Trainee {
     radiance: f64,
     position: DVec3,
     normal: DVec3,
-    throughput: DVec3,
+    throughput: Spectrum,
     /// The radiance before a light was sampled at the last surface, as in [`Departure`].
     radiance_before: f64,
 }
@@ -220,18 +221,18 @@ impl Trainee {
         }
     }
 
-    fn found(&mut self, contribution: DVec3) {
-        self.radiance += contribution.element_sum();
+    fn found(&mut self, contribution: Spectrum) {
+        self.radiance += contribution.sum();
     }
 }
 
 impl PathVisitor for Trainee {
-    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, throughput: DVec3) {
+    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, throughput: Spectrum) {
         self.position = surface.point.position;
         self.throughput = throughput;
     }
 
-    fn emission(&mut self, _radiance: DVec3, _weight: f64, contribution: DVec3) {
+    fn emission(&mut self, _radiance: Spectrum, _weight: f64, contribution: Spectrum) {
         self.found(contribution);
     }
 
@@ -245,14 +246,14 @@ impl PathVisitor for Trainee {
     }
 
     fn scattered(&mut self, sample: &BsdfSample) {
-        let throughput = (self.throughput * sample.weight).element_sum();
+        let throughput = (self.throughput * sample.weight).sum();
         if let Density::SolidAngle(pdf) = sample.density
             && throughput > 0.0
             && sample.wi.dot(self.normal) > 0.0
         {
             let [position, normal, wi] = [self.position, self.normal, sample.wi].map(|vector| vector.as_vec3());
             let arrival = Arrival { position, normal, wi, radiance: 0.0, pdf: pdf as f32, sent_on: [0.0; 2] };
-            let (incoming, radiance_before) = (self.throughput.element_sum(), self.radiance_before);
+            let (incoming, radiance_before) = (self.throughput.sum(), self.radiance_before);
             self.departures.push(Departure { arrival, throughput, radiance: self.radiance, incoming, radiance_before });
         }
     }
@@ -261,7 +262,7 @@ impl PathVisitor for Trainee {
         vertices >= MOST_VERTICES
     }
 
-    fn escaped(&mut self, _radiance: DVec3, _weight: f64, contribution: DVec3) {
+    fn escaped(&mut self, _radiance: Spectrum, _weight: f64, contribution: Spectrum) {
         self.found(contribution);
     }
 }

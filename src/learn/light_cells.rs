@@ -30,6 +30,7 @@ use crate::sampling::light_cells::{Division, LightCells, Reaching};
 use crate::sampling::light_way::{LightWay, MANY_LIGHTS};
 use crate::sampling::{LightTree, LitPoint, Sampling};
 use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, Shape};
+use crate::spectrum::Spectrum;
 
 /// Share of the light that may come from lights which are in no list, where nobody says how lights are
 /// chosen.
@@ -387,7 +388,7 @@ struct Walker {
 impl PathVisitor for Walker {
     const LIGHTS: bool = false;
 
-    fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, _throughput: DVec3) {
+    fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, _throughput: Spectrum) {
         let normal = surface.point.normal_towards(wo);
         self.at = Some(Shaded { at: LitPoint::new(surface.point.leave_towards(wo), normal), normal });
     }

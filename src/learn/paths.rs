@@ -1,10 +1,9 @@
 //! Paths that stand for all of a picture: what is found out before the first sample is found out by them.
 
-use glam::DVec3;
-
 use crate::reference::integrator::Integrator;
 use crate::reference::trace::PathVisitor;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
+use crate::spectrum::Spectrum;
 
 /// Vertices after which a path is given up.
 pub const MOST_VERTICES: u32 = 64;
@@ -23,7 +22,7 @@ pub fn follow<V: PathVisitor>(
     [x, y]: [u32; 2],
     sample: u32,
     visitor: &mut V,
-) -> DVec3 {
+) -> Spectrum {
     let pixel = y.wrapping_mul(integrator.scene().film.size[0]).wrapping_add(x);
     let point = SequencePoint::new(sampling, sample);
     integrator.radiance(x, y, &PathSampler::new(sampling, pixel, &point), visitor)

@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use crate::picture_file::{Envelope, Hints};
-use crate::scene::{ImageData, MapRows};
+use crate::scene::{ImageData, MapRows, Texels};
+use crate::spectrum::Spectrum;
 
 /// A lat-long map, and how it lies.
 pub struct EnvironmentMap {
@@ -72,17 +73,17 @@ const SAMPLES: usize = 3;
 fn lat_long(cube: &ImageData, side: usize) -> ImageData {
     let (width, height) = (4 * side, 2 * side);
     let texel = |row: usize, column: usize| {
-        let mut sum = DVec3::ZERO;
+        let mut sum = Spectrum::BLACK;
         for sample in 0..SAMPLES * SAMPLES {
             let within = |place: usize| (place as f64 + 0.5) / SAMPLES as f64;
             let u = (column as f64 + within(sample % SAMPLES)) / width as f64;
             let v = (row as f64 + within(sample / SAMPLES)) / height as f64;
             sum += look_up(cube, side, direction(u, v));
         }
-        (sum / (SAMPLES * SAMPLES) as f64).as_vec3()
+        (sum / (SAMPLES * SAMPLES) as f64).to_f32()
     };
     let texels: Vec<_> = (0..height).flat_map(|row| (0..width).map(move |column| texel(row, column))).collect();
-    ImageData { width: width as u32, height: height as u32, texels: texels.into(), has_alpha: false }
+    ImageData { width: width as u32, height: height as u32, texels: Texels::Float(texels), has_alpha: false }
 }
 
 /// The place of a direction in a lat-long map: u = atan2(x, −z)/2π, v = acos(y)/π.
@@ -93,7 +94,7 @@ fn direction(u: f64, v: f64) -> DVec3 {
 
 /// The colour of a cube in a direction, bilinearly. Faces are +X, −X, +Y, −Y, +Z and −Z, each as it is seen from within, with +Y up and, looking at
 /// +Y or −Y, with +Z below or above.
-fn look_up(cube: &ImageData, side: usize, towards: DVec3) -> DVec3 {
+fn look_up(cube: &ImageData, side: usize, towards: DVec3) -> Spectrum {
     let largest = towards.abs().max_element();
     let d = towards / largest;
     // To the right and downwards on the face, from -1 to 1.
@@ -111,7 +112,7 @@ fn look_up(cube: &ImageData, side: usize, towards: DVec3) -> DVec3 {
     let (x, y) = (at(right), at(down));
     let texel = |column: f64, row: f64| {
         let [column, row] = [column, row].map(|place| (place as usize).min(side - 1));
-        cube.texels.color((face * side + row) * side + column).as_dvec3()
+        Spectrum::from_f32(cube.texels.color((face * side + row) * side + column).to_array())
     };
     let (left, top) = (x.floor(), y.floor());
     let row = |row: f64| texel(left, row).lerp(texel(left + 1.0, row), x - left);

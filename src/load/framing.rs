@@ -14,6 +14,7 @@ use crate::scene::{
     Camera, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, ImageSource, Light, MapRows, Material,
     MaterialKind, Plane, Projection, Rectangle, Scene, Shape, Transform, TransformStep,
 };
+use crate::spectrum::Spectrum;
 
 /// Vertical field of view of the camera, degrees: a short telephoto lens, which does not distort.
 pub const FIELD_OF_VIEW: f64 = 30.0;
@@ -70,7 +71,7 @@ fn add_lights(scene: &mut Scene, rectangle: Rectangle) {
         ..diffuse("(light)", 0.0)
     };
     add(scene, "(light)", light, Geometry::Rectangle(rectangle));
-    let radiance = EnvironmentRadiance::Constant(DVec3::splat(SKY));
+    let radiance = EnvironmentRadiance::Constant(Spectrum::grey(SKY));
     scene.lights.push(Light::Environment(Environment {
         radiance,
         rotation_degrees: 0.0,

@@ -18,6 +18,7 @@ use super::import::{Description, camera_at};
 use super::place::{Origin, Place};
 use super::{gltf, mitsuba};
 use crate::scene::{Plane, Rectangle};
+use crate::spectrum::Spectrum;
 
 /// How a scene of another program is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,7 +108,7 @@ fn add_camera(description: &mut Description, position: DVec3, look_at: DVec3, pl
 }
 
 fn add_sky(description: &mut Description, place: &Place) -> Result<(), String> {
-    let radiance = Rgb::of(DVec3::splat(SKY))?;
+    let radiance = Rgb::of(Spectrum::grey(SKY))?;
     description.file.light.push(place.at(LightEntry::Environment(environment::Keys::constant(place.at(radiance)))));
     Ok(())
 }
@@ -115,12 +116,12 @@ fn add_sky(description: &mut Description, place: &Place) -> Result<(), String> {
 /// Adds the ground and the light of a stage, each with a material of its own.
 fn add_surfaces(description: &mut Description, ground: Plane, light: Rectangle, place: &Place) -> Result<(), String> {
     let material = Some(place.at(description.free_material_name("(ground)")));
-    let keys = diffuse::Keys { reflectance: Colour::constant(DVec3::splat(GROUND))?, ..Default::default() };
+    let keys = diffuse::Keys { reflectance: Colour::constant(Spectrum::grey(GROUND))?, ..Default::default() };
     add_material(description, MaterialEntry::Diffuse(keys), &material);
     let plane = ShapeEntry::Plane(plane::Keys::of(ground.point, DVec3::Y, place)?);
     add_shape(description, plane, material, place);
     let material = Some(place.at(description.free_material_name("(light)")));
-    let keys = emissive::Keys { radiance: Colour::constant(DVec3::splat(LIGHT))?, ..Default::default() };
+    let keys = emissive::Keys { radiance: Colour::constant(Spectrum::grey(LIGHT))?, ..Default::default() };
     add_material(description, MaterialEntry::Emissive(keys), &material);
     let rectangle = ShapeEntry::Rectangle(rectangle::Keys::of([light.corner, light.edge_u, light.edge_v], place)?);
     add_shape(description, rectangle, material, place);

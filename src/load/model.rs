@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use crate::scene::{self, Mesh};
+use crate::spectrum::Spectrum;
 
 /// Coordinates of models are within this.
 pub const FARTHEST: f32 = scene::FARTHEST as f32;
@@ -78,7 +79,7 @@ pub struct MtlMaterial {
     pub file: PathBuf,
     pub name: String,
     /// `Kd`, `Ks`, `Ke` and `Tf`: from 0 up.
-    pub colours: BTreeMap<MtlKey, DVec3>,
+    pub colours: BTreeMap<MtlKey, Spectrum>,
     /// All others of one number, within the ranges of [`MtlKey`].
     pub numbers: BTreeMap<MtlKey, f64>,
     /// A number from 0 to 10.
@@ -90,7 +91,7 @@ pub struct MtlMaterial {
 }
 
 impl MtlMaterial {
-    pub fn colour(&self, key: MtlKey) -> Option<DVec3> {
+    pub fn colour(&self, key: MtlKey) -> Option<Spectrum> {
         self.colours.get(&key).copied()
     }
 

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 
 use crate::black_body::tristimulus;
 use crate::choice::{Choice, choices};
-use crate::math::luminance;
+use crate::spectrum::Spectrum;
 
 /// How radiance is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -91,7 +91,7 @@ pub struct Meter {
 impl Meter {
     pub fn add(&mut self, pixels: &[[f32; 3]]) {
         for pixel in pixels {
-            let luminance = luminance(DVec3::from_array(pixel.map(f64::from)));
+            let luminance = Spectrum::from_f32(*pixel).luminance();
             if luminance.is_finite() && luminance > 1e-12 {
                 self.sum_of_logarithms += luminance.log2();
                 self.pixels += 1;
@@ -367,7 +367,7 @@ mod tests {
     #[test]
     fn the_light_of_the_chosen_temperature_becomes_white() {
         for kelvin in [2700.0, 4000.0, 9000.0] {
-            let white = white_balance(kelvin) * black_body(kelvin);
+            let white = white_balance(kelvin) * black_body(kelvin).to_vector();
             assert!((white / white.y - DVec3::ONE).abs().max_element() < 2e-3, "{kelvin}: {white}");
             let other = white_balance(kelvin) * DVec3::ONE;
             assert!((other / other.y - DVec3::ONE).abs().max_element() > 0.05, "{kelvin}: {other}");

@@ -1,10 +1,9 @@
 //! From the tree of a blend to the run of its parts.
 
-use glam::DVec3;
-
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::error::PackError;
 use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Scene};
+use crate::spectrum::Spectrum;
 
 /// Most weights of all parts together: 16 MiB of them.
 pub const MOST_WEIGHTS: usize = 1 << 20;
@@ -61,7 +60,7 @@ pub fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
 
 /// Lambert surfaces blended by weights that never change are one of their mean reflectance. None where a part is anything else, varies
 /// over the surface, or emits.
-pub fn lambert_of_the_mean(scene: &Scene, plain: &[Part]) -> Option<DVec3> {
+pub fn lambert_of_the_mean(scene: &Scene, plain: &[Part]) -> Option<Spectrum> {
     let weighted =
         plain.iter().map(|part| match &scene.materials[part.material] {
             Material {

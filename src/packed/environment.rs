@@ -4,7 +4,6 @@ use glam::DVec4;
 
 use super::error::PackError;
 use super::texture::PackedTextures;
-use crate::math::luminance;
 use crate::sampling::MapDistribution;
 use crate::scene::{ImageData, MapRows, OutsideParameters};
 
@@ -50,7 +49,7 @@ impl PackedEnvironment {
     ) -> Result<Self, PackError> {
         Ok(match *parameters {
             OutsideParameters::Constant(radiance) => Self {
-                mean_luminance: luminance(radiance),
+                mean_luminance: radiance.luminance(),
                 words: [radiance.extend(0.0), DVec4::ZERO, DVec4::ZERO],
                 is_constant: true,
                 ..Self::default()

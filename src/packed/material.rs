@@ -4,8 +4,6 @@
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
-use glam::DVec3;
-
 use super::blend_parts::{MOST_WEIGHTS, Part, Parts, lambert_of_the_mean, parts};
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::constants::NONE;
@@ -16,6 +14,7 @@ use crate::scene::{
     BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Masking, Material, MaterialId, MaterialKind, Media, Scene,
 };
 use crate::shader::shared::{Constant, Constants, shared_constants};
+use crate::spectrum::Spectrum;
 
 /// Above a packed material's kind stands its lobe's form.
 pub(super) const FORM_SHIFT: u32 = 8;
@@ -169,12 +168,12 @@ pub struct PackedMaterials {
 /// A colour as a constant factor and a texture index or NONE.
 pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
     match input {
-        ColorInput::Constant(color) => (color.as_vec3().to_array(), NONE),
+        ColorInput::Constant(color) => (color.to_f32(), NONE),
         ColorInput::Texture(texture) => ([1.0; 3], *texture as u32),
-        ColorInput::ScaledTexture(texture, factor) => (factor.as_vec3().to_array(), *texture as u32),
+        ColorInput::ScaledTexture(texture, factor) => (factor.to_f32(), *texture as u32),
         // That it is squared stands beside the scalar it is for: colours never are.
         ColorInput::SquaredTexture(texture) => ([1.0; 3], *texture as u32),
-        ColorInput::Channel(input) => (input.factor.as_vec3().to_array(), mention(input.texture, Some(input.channel))),
+        ColorInput::Channel(input) => (input.factor.to_f32(), mention(input.texture, Some(input.channel))),
     }
 }
 
@@ -212,10 +211,17 @@ impl PackedMaterials {
         if media.extinctions.len() > MOST_MEDIA {
             return Err(PackError::TooManyMedia { found: media.extinctions.len(), limit: MOST_MEDIA });
         }
-        let absorbs = |id: &MaterialId| media.extinction(media.behind(*id)) != DVec3::ZERO;
+        let absorbs = |id: &MaterialId| media.extinction(media.behind(*id)) != Spectrum::BLACK;
         let has_media = of_surfaces.iter().any(absorbs);
         if has_media {
-            packed.media = media.extinctions.iter().map(|extinction| extinction.as_vec3().extend(0.0).to_array()).collect();
+            packed.media = media
+                .extinctions
+                .iter()
+                .map(|extinction| {
+                    let [r, g, b] = extinction.to_f32();
+                    [r, g, b, 0.0]
+                })
+                .collect();
         }
         for &id in of_surfaces {
             let mut material = match scene.materials[id].kind {
@@ -324,7 +330,7 @@ impl PackedMaterials {
             && let Some(reflectance) = lambert_of_the_mean(scene, &plain)
         {
             packed.kind_and_form = LobeKind::Diffuse as u32;
-            packed.color0 = reflectance.as_vec3().to_array();
+            packed.color0 = reflectance.to_f32();
             return Ok(packed);
         }
         if !emitting_blends.is_empty() || plain.iter().any(|part| scene.materials[part.material].emission.is_some()) {
@@ -463,8 +469,8 @@ impl PackedMaterial {
 
 /// Emission of a material on its own, each part with the share of it that a light's power counts: the weight
 /// of a constant weight, one half of any other's.
-pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> DVec3) -> DVec3 {
-    let mut sum = DVec3::ZERO;
+pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> Spectrum) -> Spectrum {
+    let mut sum = Spectrum::BLACK;
     let mut to_visit = vec![(id, 1.0)];
     while let Some((id, share)) = to_visit.pop() {
         let material = &scene.materials[id];

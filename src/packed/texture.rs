@@ -4,14 +4,13 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::DVec3;
-
 use super::error::PackError;
 use crate::scene::image::Code;
 use crate::scene::{
     Channel, ImageData, ImageTexture, Relief, Scene, Texels, Texture, TextureFilter, TextureId, TextureKind, TextureWrap,
 };
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
+use crate::spectrum::Spectrum;
 
 shared_kinds! {
     /// The kind of a texture.
@@ -252,7 +251,7 @@ impl Packing {
     /// Its place.
     fn add(&mut self, texture: &Texture, channel: Option<Channel>) -> Result<u32, PackError> {
         // A grey of the channel.
-        let color = |color: DVec3| channel.map_or(color, |channel| DVec3::splat(channel.of_color(color)));
+        let color = |color: Spectrum| channel.map_or(color, |channel| Spectrum::grey(channel.of_color(color)));
         let packed = match &texture.kind {
             TextureKind::Image(image) => self.add_image(image, channel)?,
             TextureKind::Checker { a, b, scale } => {
@@ -307,7 +306,7 @@ impl Packing {
             Texels::Shorts { .. } => (TexelFormat::Shorts, 0),
             Texels::Half(_) => (TexelFormat::Half, 0),
             Texels::Float(_) if channel == Some(Channel::A) => {
-                return Ok(procedural(PackedTextureKind::Checker, DVec3::ONE, DVec3::ONE));
+                return Ok(procedural(PackedTextureKind::Checker, Spectrum::WHITE, Spectrum::WHITE));
             }
             Texels::Float(_) => (TexelFormat::Float, 0),
             Texels::FloatAlpha(_) => (TexelFormat::Float, FLOAT_ALPHA),
@@ -327,7 +326,7 @@ impl Packing {
             width_or_octaves: data.width,
             height: data.height,
             scale: image.scale.map(|x| x as f32),
-            ..procedural(PackedTextureKind::Image, DVec3::ZERO, DVec3::ZERO)
+            ..procedural(PackedTextureKind::Image, Spectrum::BLACK, Spectrum::BLACK)
         })
     }
 
@@ -362,8 +361,8 @@ impl Packing {
     }
 }
 
-fn procedural(kind: PackedTextureKind, a: DVec3, b: DVec3) -> PackedTexture {
-    let color = |color: DVec3| color.as_vec3().extend(0.0).to_array();
+fn procedural(kind: PackedTextureKind, a: Spectrum, b: Spectrum) -> PackedTexture {
+    let color = |color: Spectrum| color.extend(0.0).as_vec4().to_array();
     PackedTexture {
         kind_and_flags: kind as u32,
         first_texel_or_seed: 0,

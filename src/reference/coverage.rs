@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::bsdf::BsdfSample;
 use super::intersect::{Owner, Surface};
 use super::trace::PathVisitor;
+use crate::spectrum::Spectrum;
 
 /// Watches a path up to the surface that scatters it.
 #[derive(Default)]
@@ -16,12 +17,12 @@ pub struct FirstOwners {
 }
 
 /// Throughput of null surfaces is grey but for coloured ones, whose channels count alike.
-fn mean(throughput: DVec3) -> f64 {
-    throughput.element_sum() / 3.0
+fn mean(throughput: Spectrum) -> f64 {
+    throughput.mean()
 }
 
 impl PathVisitor for FirstOwners {
-    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, throughput: DVec3) {
+    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, throughput: Spectrum) {
         self.shares.push((surface.owner, mean(throughput)));
     }
 

@@ -71,7 +71,7 @@ impl<'a> GuidedBsdf<'a> {
             }
             let Evaluation { value, pdf } = self.evaluate(wi);
             let sample = BsdfSample { wi, weight: value / pdf, density: Density::SolidAngle(pdf), eta: 1.0, is_null: false };
-            return (pdf > 0.0 && value != DVec3::ZERO).then_some(sample);
+            return (pdf > 0.0 && !value.is_black()).then_some(sample);
         }
         let left = ((u_lobe - share) / (1.0 - share)).clamp(0.0, LARGEST_NUMBER);
         let sample = self.bsdf.sample(left, u1, u2)?;

@@ -24,6 +24,7 @@ use super::roulette::{self, Expectation};
 use super::trace::{LightConnection, PathVisitor};
 use crate::sampling::{CameraDimension, Dimension, Guide, LitPoint, PathSampler, VertexDimension};
 use crate::scene::{Emitters, Estimator, MaterialId, Media, Scene};
+use crate::spectrum::Spectrum;
 
 /// A scene made ready for tracing paths.
 #[derive(Debug, Clone)]
@@ -49,9 +50,9 @@ struct Path {
     /// When it sees the scene.
     time: PathTime,
     /// Product of f·|cosθ| / density over the surfaces so far, roulette included.
-    throughput: DVec3,
+    throughput: Spectrum,
     /// Radiance that the path has found.
-    radiance: DVec3,
+    radiance: Spectrum,
     /// Product of eta² over the refractions so far: undoes the scaling of radiance, so that roulette does not
     /// end paths for being inside glass.
     eta_scale: f64,
@@ -73,7 +74,7 @@ struct Path {
 
 impl Integrator {
     /// The radiance one sample of one pixel sees. `visitor` is told everything that happens.
-    pub fn radiance<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> DVec3 {
+    pub fn radiance<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> Spectrum {
         let mut path = self.camera_path(x, y, sampler, visitor);
         loop {
             visitor.ray(&path.ray);
@@ -93,8 +94,8 @@ impl Integrator {
             lit_from: ray.origin.into(),
             ray,
             time: self.path_time(sampler),
-            throughput: DVec3::ONE,
-            radiance: DVec3::ZERO,
+            throughput: Spectrum::WHITE,
+            radiance: Spectrum::BLACK,
             eta_scale: 1.0,
             expectation: Expectation::default(),
             previous: Density::Delta,
@@ -206,7 +207,7 @@ impl Integrator {
     /// The camera's ray goes through a surface that is not to be seen, as through a null surface.
     fn go_behind<V: PathVisitor>(&self, path: &mut Path, surface: &Surface, visitor: &mut V) {
         let wi = path.ray.direction;
-        visitor.scattered(&BsdfSample { wi, weight: DVec3::ONE, density: Density::Delta, eta: 1.0, is_null: true });
+        visitor.scattered(&BsdfSample { wi, weight: Spectrum::WHITE, density: Density::Delta, eta: 1.0, is_null: true });
         path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
         visitor.round_ray(&mut path.ray, Some(&surface.point));
         path.vertex += 1;
@@ -216,7 +217,7 @@ impl Integrator {
     fn add_escaped_radiance<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
         path.throughput *= transmittance(&self.media, path.stack.innermost(), f64::INFINITY);
         if path.depth == 1 && self.scene.render.emitters == Emitters::Hidden {
-            return visitor.escaped(DVec3::ZERO, 1.0, DVec3::ZERO);
+            return visitor.escaped(Spectrum::BLACK, 1.0, Spectrum::BLACK);
         }
         let radiance = self.lights.outside().radiance(path.ray.direction);
         let light_pdf = || self.lights.environment_pdf(&self.world, path.lit_from, path.ray.direction);
@@ -229,7 +230,7 @@ impl Integrator {
     /// Emission found by following the path, shared with the light sample of the surface before.
     fn add_emitted_radiance<V: PathVisitor>(&self, path: &mut Path, surface: &Surface, wo: DVec3, visitor: &mut V) {
         let radiance = emitted(&self.scene, surface, wo);
-        if radiance == DVec3::ZERO {
+        if radiance.is_black() {
             return;
         }
         let weight = self.emission_weight(path, || self.lights.pdf((&self.world, &path.time), path.lit_from, surface));
@@ -284,7 +285,7 @@ impl Integrator {
         // Weigh the sample: no BSDF sample finds a point light, and with `nee` BSDF samples leave all
         // emission to light samples
         let scattering = guided.evaluate(light.wi);
-        if scattering.value == DVec3::ZERO {
+        if scattering.value.is_black() {
             return;
         }
         let weight = if light.delta || settings.estimator == Estimator::Nee {

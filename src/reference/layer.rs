@@ -9,6 +9,7 @@ use super::intersect::{Ray, Surface};
 use super::trace::{LightConnection, PathVisitor};
 use crate::film::KernelLayer;
 use crate::scene::{Estimator, Guiding, Scene};
+use crate::spectrum::Spectrum;
 
 /// Edges of a path at most that a layer of surfaces follows through mirrors and glass.
 const MOST_EDGES: u32 = 64;
@@ -35,21 +36,21 @@ pub struct LayerVisitor<'a, V> {
     other: &'a mut V,
     /// Edges up to the ray's end.
     edges: u32,
-    throughput: DVec3,
+    throughput: Spectrum,
     /// The value of the surface that was met last; None where nothing was.
-    found: Option<DVec3>,
+    found: Option<Spectrum>,
     reached: bool,
-    light: DVec3,
+    light: Spectrum,
 }
 
 impl<'a, V: PathVisitor> LayerVisitor<'a, V> {
     pub fn new(layer: KernelLayer, camera: [DVec3; 2], other: &'a mut V) -> Self {
-        let (throughput, light) = (DVec3::ONE, DVec3::ZERO);
+        let (throughput, light) = (Spectrum::WHITE, Spectrum::BLACK);
         Self { layer, camera, other, edges: 1, throughput, found: None, reached: false, light }
     }
 
     /// The layer's value for a path that found this radiance; None where a layer of surfaces met nothing.
-    pub fn value(&self, radiance: DVec3) -> Option<DVec3> {
+    pub fn value(&self, radiance: Spectrum) -> Option<Spectrum> {
         match self.layer {
             layer if layer.is_of_surfaces() => self.found,
             KernelLayer::Squares => Some(radiance * radiance),
@@ -57,11 +58,16 @@ impl<'a, V: PathVisitor> LayerVisitor<'a, V> {
         }
     }
 
-    fn add(&mut self, edges: u32, contribution: DVec3) {
+    fn add(&mut self, edges: u32, contribution: Spectrum) {
         if self.layer.holds_light(edges) {
             self.light += contribution;
         }
     }
+}
+
+/// A vector as a film keeps it, coordinates in the place of channels.
+fn color_of(vector: DVec3) -> Spectrum {
+    Spectrum::from_rgb(vector.to_array())
 }
 
 impl<V: PathVisitor> PathVisitor for LayerVisitor<'_, V> {
@@ -69,26 +75,25 @@ impl<V: PathVisitor> PathVisitor for LayerVisitor<'_, V> {
         self.other.ray(ray);
     }
 
-    fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
+    fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, throughput: Spectrum) {
         let [origin, forward] = self.camera;
         let normal = surface.point.normal;
         self.throughput = throughput;
         self.found = Some(match self.layer {
-            KernelLayer::Position => surface.point.position,
-            KernelLayer::Depth => DVec3::splat((surface.point.position - origin).dot(forward)),
-            KernelLayer::Normal if normal.dot(wo) > 0.0 => normal,
-            KernelLayer::Normal => -normal,
-            _ => DVec3::ZERO,
+            KernelLayer::Position => color_of(surface.point.position),
+            KernelLayer::Depth => Spectrum::grey((surface.point.position - origin).dot(forward)),
+            KernelLayer::Normal => color_of(if normal.dot(wo) > 0.0 { normal } else { -normal }),
+            _ => Spectrum::BLACK,
         });
     }
 
     fn view(&mut self, view: &View) {
         if self.layer == KernelLayer::Normal {
-            self.found = Some(view.normal());
+            self.found = Some(color_of(view.normal()));
         }
     }
 
-    fn emission(&mut self, _radiance: DVec3, _weight: f64, contribution: DVec3) {
+    fn emission(&mut self, _radiance: Spectrum, _weight: f64, contribution: Spectrum) {
         self.add(self.edges, contribution);
     }
 
@@ -98,7 +103,7 @@ impl<V: PathVisitor> PathVisitor for LayerVisitor<'_, V> {
 
     fn scattered(&mut self, sample: &BsdfSample) {
         if self.layer.is_of_surfaces() {
-            let goes_on = sample.density == Density::Delta && sample.weight.max_element() > 0.0;
+            let goes_on = sample.density == Density::Delta && sample.weight.max_component() > 0.0;
             self.reached = !goes_on || (self.layer.is_of_first_surface() && !sample.is_null);
             if self.reached && self.layer == KernelLayer::Albedo {
                 self.found = Some(self.throughput * sample.weight);
@@ -111,7 +116,7 @@ impl<V: PathVisitor> PathVisitor for LayerVisitor<'_, V> {
         self.reached || self.other.gives_up(vertices)
     }
 
-    fn escaped(&mut self, _radiance: DVec3, _weight: f64, contribution: DVec3) {
+    fn escaped(&mut self, _radiance: Spectrum, _weight: f64, contribution: Spectrum) {
         self.found = None;
         self.add(self.edges, contribution);
     }

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::intersect::Surface;
 use crate::scene::Media;
 use crate::scene::medium::FARTHEST;
+use crate::spectrum::Spectrum;
 
 /// The numbers of the media that a ray is in, the innermost first: the one that was entered last. 0 stands for none. A fifth one within the others
 /// makes the outermost forgotten, as on devices, where a number has 16 bits of two words.
@@ -44,11 +45,12 @@ impl MediumStack {
 }
 
 /// Beer and Lambert's law: the share of light that is left after a distance within a medium.
-pub fn transmittance(media: &Media, medium: usize, distance: f64) -> DVec3 {
-    match media.extinction(medium) {
-        DVec3::ZERO => DVec3::ONE,
-        extinction => (extinction * -distance.min(FARTHEST)).exp(),
+pub fn transmittance(media: &Media, medium: usize, distance: f64) -> Spectrum {
+    let extinction = media.extinction(medium);
+    if extinction.is_black() {
+        return Spectrum::WHITE;
     }
+    (extinction * -distance.min(FARTHEST)).exp()
 }
 
 #[cfg(test)]
@@ -58,15 +60,15 @@ mod tests {
 
     #[test]
     fn light_is_left_as_the_colour_says() {
-        let amber = Attenuation { color: DVec3::new(1.0, 0.5, 0.0), distance: 2.0 };
+        let amber = Attenuation { color: Spectrum::new(1.0, 0.5, 0.0), distance: 2.0 };
         let mut media = Media::default();
         media.extinctions.push(amber.extinction());
         let left = transmittance(&media, 1, 2.0);
-        assert!((left - DVec3::new(1.0, 0.5, 1e-6)).length() < 1e-12, "{left}");
+        assert!(left.distance(Spectrum::new(1.0, 0.5, 1e-6)) < 1e-12, "{left}");
         let twice = transmittance(&media, 1, 4.0);
-        assert!((twice - left * left).length() < 1e-12, "{twice}");
-        assert_eq!(transmittance(&media, 1, f64::INFINITY), DVec3::X);
-        assert_eq!(transmittance(&media, 0, 4.0), DVec3::ONE);
+        assert!(twice.distance(left * left) < 1e-12, "{twice}");
+        assert_eq!(transmittance(&media, 1, f64::INFINITY), Spectrum::new(1.0, 0.0, 0.0));
+        assert_eq!(transmittance(&media, 0, 4.0), Spectrum::WHITE);
     }
 
     /// A medium that is left makes way for the one around it, and one that ends within another takes itself out.

@@ -15,6 +15,7 @@ use super::trace::{LightConnection, PathVisitor};
 use crate::math::POINT_ERROR;
 use crate::sampling::hash::mix;
 use crate::sampling::sampler::LARGEST_NUMBER;
+use crate::spectrum::Spectrum;
 
 /// Relative size of one rounding to f32.
 const UNIT: f64 = 0.5 * f32::EPSILON as f64;
@@ -63,7 +64,7 @@ impl Rounding {
 }
 
 impl PathVisitor for Rounding {
-    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, _throughput: DVec3) {
+    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, _throughput: Spectrum) {
         self.decided(1 + ((surface.owner.shape as u64) << 32 | surface.owner.part as u64));
     }
 
@@ -81,7 +82,7 @@ impl PathVisitor for Rounding {
         self.decided(5 + 4 * u64::from(survived));
     }
 
-    fn escaped(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {
+    fn escaped(&mut self, _radiance: Spectrum, _weight: f64, _contribution: Spectrum) {
         self.decided(7);
     }
 

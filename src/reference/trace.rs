@@ -7,6 +7,7 @@ use super::guided::GuidedBsdf;
 use super::intersect::{Hit, PathTime, Ray, Surface, SurfacePoint, World};
 use super::lights::{LightSample, Lights};
 use crate::scene::MaterialId;
+use crate::spectrum::Spectrum;
 
 /// Next event estimation at one surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +19,7 @@ pub struct LightConnection {
     pub weight: f64,
     pub visible: bool,
     /// The contribution to the path's radiance.
-    pub contribution: DVec3,
+    pub contribution: Spectrum,
 }
 
 /// Is told what happens along a path, in this order. Those that do not care leave the methods as they are, at
@@ -30,9 +31,9 @@ pub trait PathVisitor {
     fn ray(&mut self, _ray: &Ray) {}
     /// The path met a surface; `throughput` is that of the path up to it, `depth` is that of the ray that met
     /// it.
-    fn surface(&mut self, _depth: u32, _surface: &Surface, _wo: DVec3, _throughput: DVec3) {}
+    fn surface(&mut self, _depth: u32, _surface: &Surface, _wo: DVec3, _throughput: Spectrum) {}
     /// The surface emits towards the path.
-    fn emission(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
+    fn emission(&mut self, _radiance: Spectrum, _weight: f64, _contribution: Spectrum) {}
     /// The method below is called.
     const COMPARES: bool = false;
     /// The direction of the light sample or of the path that is told of next would have so many times its
@@ -49,7 +50,7 @@ pub trait PathVisitor {
         false
     }
     /// The path left the scene.
-    fn escaped(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
+    fn escaped(&mut self, _radiance: Spectrum, _weight: f64, _contribution: Spectrum) {}
 
     // The methods below may change what they are given, by as much as rounding does.
 
@@ -93,10 +94,10 @@ impl PathVisitor for RayCounter {
 /// Emission or environment radiance that a path found by itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FoundLight {
-    pub radiance: DVec3,
+    pub radiance: Spectrum,
     /// Weight by multiple importance sampling.
     pub weight: f64,
-    pub contribution: DVec3,
+    pub contribution: Spectrum,
 }
 
 /// One surface of a traced path.
@@ -116,7 +117,7 @@ pub struct PathVertex {
     pub part: usize,
     pub material: MaterialId,
     /// The path's throughput up to here.
-    pub throughput: DVec3,
+    pub throughput: Spectrum,
     pub emission: Option<FoundLight>,
     pub light: Option<LightConnection>,
     pub scattered: Option<BsdfSample>,
@@ -131,7 +132,7 @@ pub struct PathTrace {
     pub rays: Vec<Ray>,
     pub vertices: Vec<PathVertex>,
     pub escaped: Option<FoundLight>,
-    pub radiance: DVec3,
+    pub radiance: Spectrum,
 }
 
 impl PathTrace {
@@ -147,7 +148,7 @@ impl PathVisitor for PathTrace {
         self.rays.push(*ray);
     }
 
-    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
+    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: Spectrum) {
         self.vertices.push(PathVertex {
             depth,
             position: surface.point.position,
@@ -165,7 +166,7 @@ impl PathVisitor for PathTrace {
         });
     }
 
-    fn emission(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
+    fn emission(&mut self, radiance: Spectrum, weight: f64, contribution: Spectrum) {
         self.at_last_vertex(|vertex| vertex.emission = Some(FoundLight { radiance, weight, contribution }));
     }
 
@@ -185,7 +186,7 @@ impl PathVisitor for PathTrace {
         self.at_last_vertex(|vertex| vertex.roulette = Some((survival, survived)));
     }
 
-    fn escaped(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
+    fn escaped(&mut self, radiance: Spectrum, weight: f64, contribution: Spectrum) {
         self.escaped = Some(FoundLight { radiance, weight, contribution });
     }
 }

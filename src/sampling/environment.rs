@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::hierarchical_warp::HierarchicalWarp;
 use crate::scene::{ImageData, MapRows};
+use crate::spectrum::Spectrum;
 
 /// Most cells along u and v. Larger maps have several texels in a cell.
 const MOST_CELLS: [u32; 2] = [1024, 512];
@@ -35,7 +36,7 @@ impl MapDistribution {
 /// that of its texel and the neighbours, weighted: it is positive wherever the looked-up radiance is.
 fn texel_weights(image: &ImageData, rows: MapRows) -> Vec<f64> {
     let (width, height) = (image.width as usize, image.height as usize);
-    let luminance: Vec<f64> = image.texels.colors().map(|texel| crate::math::luminance(texel.as_dvec3())).collect();
+    let luminance: Vec<f64> = image.texels.colors().map(|texel| Spectrum::from_f32(texel.to_array()).luminance()).collect();
     let across: Vec<f64> = luminance
         .chunks_exact(width)
         .flat_map(|row| (0..width).map(|x| mean_over_middle([row[(x + width - 1) % width], row[x], row[(x + 1) % width]])))

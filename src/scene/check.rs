@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::image::ImageData;
+use crate::spectrum::Spectrum;
 
 /// Most texels along a side of an image: twice as many still are a positive number of 32 bits.
 const LONGEST_SIDE: u32 = 1 << 30;
@@ -31,8 +32,8 @@ pub fn within_range(reach: f64) -> Check {
 }
 
 /// A quantity of light, or a share of it.
-pub fn is_amount(color: DVec3) -> bool {
-    color.is_finite() && color.min_element() >= 0.0
+pub fn is_amount(color: Spectrum) -> bool {
+    color.is_finite() && color.min_component() >= 0.0
 }
 
 /// True for a vector of length 1.

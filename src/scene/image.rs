@@ -2,9 +2,10 @@
 
 use std::sync::LazyLock;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use crate::math::{half_to_f32, srgb_to_linear};
+use crate::spectrum::Spectrum;
 
 /// An image as it is looked up. Its colours are linear Rec.709.
 #[derive(Debug, Clone)]
@@ -43,8 +44,8 @@ impl Channel {
     }
 
     /// This channel of an opaque colour.
-    pub fn of_color(self, color: DVec3) -> f64 {
-        self.of([color.x, color.y, color.z, 1.0])
+    pub fn of_color(self, color: Spectrum) -> f64 {
+        self.of([color.r(), color.g(), color.b(), 1.0])
     }
 }
 

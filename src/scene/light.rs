@@ -12,7 +12,7 @@ use super::check::{Check, image, is_direction};
 use super::image::ImageData;
 use super::light_at::LightAt;
 use super::texture::TextureId;
-use crate::math::luminance;
+use crate::spectrum::Spectrum;
 use model::{DeltaLight, SceneLight, amounts, placed, stands};
 pub use model::{LightParameters, LightStrength};
 pub use thrown::{FALLOFF_LINEAR, FALLOFF_SQUARE, FalloffCurve, Projector, SpotLight, ThrownPicture, picture_turn};
@@ -52,7 +52,7 @@ trait OutsideLight {
 #[derive(Debug, Clone, Copy)]
 pub enum OutsideParameters<'a> {
     /// One radiance from all directions.
-    Constant(DVec3),
+    Constant(Spectrum),
     /// Another one from each direction.
     Varying {
         /// Averaged over all directions; that of a map follows from the map.
@@ -97,7 +97,7 @@ impl MapRows {
 
 #[derive(Debug, Clone)]
 pub enum EnvironmentRadiance {
-    Constant(DVec3),
+    Constant(Spectrum),
     /// Lat-long map: u = atan2(x, -z)/2π (mod 1), v = acos(y)/π from the top row, interpolated bilinearly; texels already multiplied by `scale`.
     Map(Arc<ImageData>),
 }
@@ -150,9 +150,9 @@ impl OutsideLight for Environment {
 /// An environment: horizon + (zenith − horizon)·y over the upper half, y the direction's height, `ground` below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sky {
-    pub zenith: DVec3,
-    pub horizon: DVec3,
-    pub ground: DVec3,
+    pub zenith: Spectrum,
+    pub horizon: Spectrum,
+    pub ground: Spectrum,
 }
 
 impl SceneLight for Sky {
@@ -164,7 +164,7 @@ impl SceneLight for Sky {
 /// Words: (radiance at the horizon; -), (at the zenith; the share of the upper half), (below; 1 over the integral of its luminance).
 impl OutsideLight for Sky {
     fn parameters(&self) -> OutsideParameters<'_> {
-        let (upper, lower) = (PI * (luminance(self.zenith) + luminance(self.horizon)), 2.0 * PI * luminance(self.ground));
+        let (upper, lower) = (PI * (self.zenith.luminance() + self.horizon.luminance()), 2.0 * PI * self.ground.luminance());
         let integral = (upper + lower).max(f64::MIN_POSITIVE);
         OutsideParameters::Varying {
             mean_luminance: (upper + lower) / (4.0 * PI),
@@ -178,7 +178,7 @@ impl OutsideLight for Sky {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLight {
     pub position: DVec3,
-    pub intensity: DVec3,
+    pub intensity: Spectrum,
 }
 
 impl SceneLight for PointLight {
@@ -199,7 +199,7 @@ impl SceneLight for PointLight {
 
 impl DeltaLight for PointLight {
     fn parameters(&self) -> LightParameters {
-        LightParameters::new(LightStrength::Power(4.0 * PI * luminance(self.intensity)), self.intensity, self.position)
+        LightParameters::new(LightStrength::Power(4.0 * PI * self.intensity.luminance()), self.intensity, self.position)
     }
 }
 
@@ -207,7 +207,7 @@ impl DeltaLight for PointLight {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DirectionalLight {
     pub direction: DVec3,
-    pub irradiance: DVec3,
+    pub irradiance: Spectrum,
 }
 
 impl SceneLight for DirectionalLight {
@@ -227,7 +227,7 @@ impl DeltaLight for DirectionalLight {
     fn parameters(&self) -> LightParameters {
         LightParameters {
             vectors: [-self.direction, DVec3::ZERO],
-            ..LightParameters::new(LightStrength::Irradiance(luminance(self.irradiance)), self.irradiance, DVec3::ZERO)
+            ..LightParameters::new(LightStrength::Irradiance(self.irradiance.luminance()), self.irradiance, DVec3::ZERO)
         }
     }
 }

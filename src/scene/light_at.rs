@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use crate::spectrum::Spectrum;
+
 /// The state of a light at a frame. Fields that are None stay as they are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LightAt {
@@ -9,7 +11,7 @@ pub struct LightAt {
     /// A direction of length 1.
     pub direction: Option<DVec3>,
     /// Intensity, irradiance or radiance.
-    pub strength: Option<DVec3>,
+    pub strength: Option<Spectrum>,
     pub rotation_degrees: Option<f64>,
     /// Takes the light along from where it then is.
     pub along: DAffine3,

@@ -1,10 +1,9 @@
 //! The media that bodies of a scene enclose.
 
-use glam::DVec3;
-
 use super::material::{MaterialId, MaterialKind};
 use super::model::Scene;
 use super::texture::ColorInput;
+use crate::spectrum::Spectrum;
 
 /// The longest distance that counts within a medium: that of light which leaves the scene is infinite.
 pub const FARTHEST: f64 = 1e20;
@@ -13,7 +12,7 @@ pub const FARTHEST: f64 = 1e20;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Media {
     /// The extinction of each medium, per unit length; that of number 1 is the first.
-    pub extinctions: Vec<DVec3>,
+    pub extinctions: Vec<Spectrum>,
     /// By material, the number of the medium that its surfaces enclose; 0: they bound none. Empty where the scene has no media.
     behind: Vec<usize>,
 }
@@ -27,13 +26,13 @@ impl Media {
                 principled.attenuation.map(|attenuation| attenuation.extinction())
             }
             MaterialKind::Principled(principled) => {
-                (!principled.thin && principled.transmission != ColorInput::grey(0.0)).then_some(DVec3::ZERO)
+                (!principled.thin && principled.transmission != ColorInput::grey(0.0)).then_some(Spectrum::BLACK)
             }
-            MaterialKind::Glass { thin, .. } | MaterialKind::RoughGlass { thin, .. } => (!thin).then_some(DVec3::ZERO),
+            MaterialKind::Glass { thin, .. } | MaterialKind::RoughGlass { thin, .. } => (!thin).then_some(Spectrum::BLACK),
             _ => None,
         };
-        let mut inside: Vec<Option<DVec3>> = scene.materials.iter().map(|material| own(&material.kind)).collect();
-        if inside.iter().flatten().all(|&extinction| extinction == DVec3::ZERO) {
+        let mut inside: Vec<Option<Spectrum>> = scene.materials.iter().map(|material| own(&material.kind)).collect();
+        if inside.iter().flatten().all(|&extinction| extinction == Spectrum::BLACK) {
             return Self::default();
         }
         of_blends(scene, &mut inside);
@@ -46,7 +45,7 @@ impl Media {
     }
 
     /// The number of the medium with this extinction, which is added where there is none.
-    fn number(&mut self, extinction: DVec3) -> usize {
+    fn number(&mut self, extinction: Spectrum) -> usize {
         let known = self.extinctions.iter().position(|&other| other == extinction);
         1 + known.unwrap_or_else(|| {
             self.extinctions.push(extinction);
@@ -55,8 +54,8 @@ impl Media {
     }
 
     /// The extinction within the medium of a number; 0 where that is none.
-    pub fn extinction(&self, number: usize) -> DVec3 {
-        number.checked_sub(1).map_or(DVec3::ZERO, |index| self.extinctions[index])
+    pub fn extinction(&self, number: usize) -> Spectrum {
+        number.checked_sub(1).map_or(Spectrum::BLACK, |index| self.extinctions[index])
     }
 
     /// The number of the medium that surfaces of a material enclose; 0: they bound none.
@@ -66,7 +65,7 @@ impl Media {
 }
 
 /// Gives blends the extinction inside their parts.
-fn of_blends(scene: &Scene, inside: &mut [Option<DVec3>]) {
+fn of_blends(scene: &Scene, inside: &mut [Option<Spectrum>]) {
     // Parts before wholes, each material once. One that is a part of itself is for the check of the scene to refuse.
     let mut is_entered = vec![false; inside.len()];
     let mut to_visit = Vec::new();
@@ -75,7 +74,7 @@ fn of_blends(scene: &Scene, inside: &mut [Option<DVec3>]) {
         while let Some((id, parts_are_known)) = to_visit.pop() {
             let MaterialKind::Blend { materials: [first, second], .. } = scene.materials[id].kind else { continue };
             if parts_are_known {
-                let absorbs = |extinction: &DVec3| *extinction != DVec3::ZERO;
+                let absorbs = |extinction: &Spectrum| *extinction != Spectrum::BLACK;
                 let absorbing = inside[first].filter(absorbs).or(inside[second].filter(absorbs));
                 inside[id] = absorbing.or(inside[first]).or(inside[second]);
             } else if !std::mem::replace(&mut is_entered[id], true) {
@@ -111,7 +110,7 @@ mod tests {
         assert_eq!(both.extinctions.len(), 2);
         assert!(number("amber") != 0 && number("glass") != 0 && number("amber") != number("glass"));
         assert_eq!(number("pane"), 0);
-        assert_eq!(both.extinctions[number("glass") - 1], DVec3::ZERO);
+        assert_eq!(both.extinctions[number("glass") - 1], Spectrum::BLACK);
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use glam::{DMat2, DVec2, DVec3};
+use glam::{DMat2, DVec2};
 
 use super::image::{Channel, ImageData};
+use crate::spectrum::Spectrum;
 
 /// Index into [`crate::scene::Scene::textures`].
 pub type TextureId = usize;
@@ -13,10 +14,10 @@ pub type TextureId = usize;
 /// A parameter that is one colour or comes from a texture. Scalars are grey colours; their first channel counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ColorInput {
-    Constant(DVec3),
+    Constant(Spectrum),
     Texture(TextureId),
     /// A texture times a constant (MTL's `Kd` with `map_Kd`).
-    ScaledTexture(TextureId, DVec3),
+    ScaledTexture(TextureId, Spectrum),
     /// The square of a texture: GGX's width from a roughness.
     SquaredTexture(TextureId),
     /// One channel of a texture as a grey.
@@ -28,14 +29,14 @@ pub enum ColorInput {
 pub struct ChannelInput {
     pub texture: TextureId,
     pub channel: Channel,
-    pub factor: DVec3,
+    pub factor: Spectrum,
     /// GGX's width from a roughness.
     pub is_squared: bool,
 }
 
 impl ColorInput {
     pub fn grey(value: f64) -> Self {
-        Self::Constant(DVec3::splat(value))
+        Self::Constant(Spectrum::grey(value))
     }
 
     /// The value varies over the surface.
@@ -59,7 +60,7 @@ impl ColorInput {
 
     /// The input times a factor; a squared input becomes the square of the product.
     #[must_use]
-    pub fn scaled(self, by: DVec3) -> Self {
+    pub fn scaled(self, by: Spectrum) -> Self {
         let channel = |texture| ChannelInput { texture, channel: Channel::R, factor: by, is_squared: true };
         match self {
             Self::Constant(color) => Self::Constant(color * by),
@@ -145,8 +146,8 @@ impl Texture {
 }
 
 /// The mean colour over the whole texture: of a product, the product of the means.
-pub(crate) fn mean_of_texture(textures: &[Texture], id: TextureId) -> DVec3 {
-    let by = textures[id].times.map_or(DVec3::ONE, |other| textures[other].kind.mean());
+pub(crate) fn mean_of_texture(textures: &[Texture], id: TextureId) -> Spectrum {
+    let by = textures[id].times.map_or(Spectrum::WHITE, |other| textures[other].kind.mean());
     textures[id].kind.mean() * by
 }
 
@@ -202,23 +203,23 @@ pub enum TextureKind {
     Image(ImageTexture),
     /// Alternates `a` and `b`: a where floor(u·scale.x) + floor(v·scale.y) is even.
     Checker {
-        a: DVec3,
-        b: DVec3,
+        a: Spectrum,
+        b: Spectrum,
         scale: [f64; 2],
     },
     /// Improved Perlin noise in uv, summed over octaves, mapped from [-1, 1] to a..b.
     Perlin {
         scale: f64,
         octaves: u32,
-        a: DVec3,
-        b: DVec3,
+        a: Spectrum,
+        b: Spectrum,
         seed: u32,
     },
     /// Distance to the nearest feature point in uv, clamped to [0, 1], mapped to a..b.
     Worley {
         scale: f64,
-        a: DVec3,
-        b: DVec3,
+        a: Spectrum,
+        b: Spectrum,
         seed: u32,
     },
 }
@@ -226,13 +227,13 @@ pub enum TextureKind {
 impl TextureKind {
     /// The smallest and the largest value of any channel.
     pub fn range(&self) -> (f64, f64) {
-        let ends = |colours: &mut dyn Iterator<Item = DVec3>| {
+        let ends = |colours: &mut dyn Iterator<Item = Spectrum>| {
             colours.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), colour| {
-                (low.min(colour.min_element()), high.max(colour.max_element()))
+                (low.min(colour.min_component()), high.max(colour.max_component()))
             })
         };
         match self {
-            Self::Image(image) => ends(&mut image.image.texels.colors().map(|texel| texel.as_dvec3())),
+            Self::Image(image) => ends(&mut image.image.texels.colors().map(|texel| Spectrum::from_f32(texel.to_array()))),
             Self::Checker { a, b, .. } | Self::Perlin { a, b, .. } | Self::Worley { a, b, .. } => ends(&mut [*a, *b].into_iter()),
         }
     }
@@ -251,7 +252,7 @@ impl TextureKind {
     }
 
     /// The mean colour over the whole texture; of noise, the middle between its two colours.
-    pub fn mean(&self) -> DVec3 {
+    pub fn mean(&self) -> Spectrum {
         match self {
             Self::Image(image) => image.mean(),
             Self::Checker { a, b, .. } | Self::Perlin { a, b, .. } | Self::Worley { a, b, .. } => 0.5 * (*a + *b),
@@ -283,9 +284,9 @@ pub struct ImageTexture {
 
 impl ImageTexture {
     /// The mean over all texels.
-    pub fn mean(&self) -> DVec3 {
+    pub fn mean(&self) -> Spectrum {
         let texels = &self.image.texels;
-        texels.colors().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64
+        texels.colors().map(|texel| Spectrum::from_f32(texel.to_array())).sum::<Spectrum>() / texels.len().max(1) as f64
     }
 }
 

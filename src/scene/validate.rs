@@ -14,6 +14,7 @@ use super::model::Scene;
 use super::settings::BadSetting;
 use super::shape::{Geometry, Shape};
 use super::texture::{ChannelInput, ColorInput, Relief, Texture, TextureId, TextureKind, UvTransform};
+use crate::spectrum::Spectrum;
 
 /// Most octaves of Perlin noise: further ones are finer than the numbers that they are computed in.
 pub const MOST_OCTAVES: u32 = 16;
@@ -261,7 +262,7 @@ fn check_texture(texture: &Texture) -> Check {
     }
 }
 
-fn between(a: DVec3, b: DVec3, scale_is_finite: bool) -> Check {
+fn between(a: Spectrum, b: Spectrum, scale_is_finite: bool) -> Check {
     let possible = a.is_finite() && b.is_finite() && scale_is_finite;
     if possible { Ok(()) } else { Err("its colours and its scale must be finite".into()) }
 }

@@ -1,17 +1,17 @@
 //! How textures change over a surface.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::{Coordinates, image, perlin, worley};
-use crate::math::luminance;
 use crate::scene::{Texture, TextureId, TextureKind};
+use crate::spectrum::Spectrum;
 
 /// How a texture's luminance changes along u and v. A checker changes in steps alone, and bends no normals.
 pub fn gradient(textures: &[Texture], id: TextureId, uv: impl Into<Coordinates>) -> DVec2 {
     let texture = &textures[id];
     let uv = uv.into().of(texture);
     let at = |scale: [f64; 2]| texture.placed(uv * DVec2::from(scale));
-    let between = |a: DVec3, b: DVec3| luminance(b) - luminance(a);
+    let between = |a: Spectrum, b: Spectrum| b.luminance() - a.luminance();
     let (scale, slope) = match texture.kind {
         TextureKind::Image(ref image) => (image.scale, image::luminance_gradient(image, at(image.scale))),
         TextureKind::Checker { scale, .. } => (scale, DVec2::ZERO),
@@ -39,7 +39,7 @@ mod tests {
         let texels: Vec<_> = (0..20).map(|index| Vec3::splat(((index * 7) % 11) as f32)).collect();
         let image = Arc::new(ImageData { width: 5, height: 4, texels: texels.into(), has_alpha: false });
         let image = |filter| ImageTexture { image: image.clone(), wrap: [TextureWrap::Repeat; 2], filter, scale: [2.0, -1.0] };
-        let (a, b) = (DVec3::new(0.1, 0.2, 0.0), DVec3::new(0.9, 0.4, 3.0));
+        let (a, b) = (Spectrum::new(0.1, 0.2, 0.0), Spectrum::new(0.9, 0.4, 3.0));
         let kinds = [
             TextureKind::Image(image(TextureFilter::Bilinear)),
             TextureKind::Image(image(TextureFilter::Triangle)),
@@ -57,7 +57,7 @@ mod tests {
     fn check(textures: &[Texture]) {
         for uv in [[0.31, 0.22], [0.05, 0.91], [-0.4, 1.3], [0.77, 0.5]].map(DVec2::from) {
             let by_difference = [DVec2::X, DVec2::Y].map(|axis| {
-                let at = |sign: f64| luminance(look_up(textures, 0, uv + axis * sign * 1e-6));
+                let at = |sign: f64| look_up(textures, 0, uv + axis * sign * 1e-6).luminance();
                 (at(1.0) - at(-1.0)) / 2e-6
             });
             let found = gradient(textures, 0, uv);

@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec4};
 
-use crate::math::luminance;
 use crate::scene::{ImageData, ImageTexture, TextureFilter, TextureWrap};
+use crate::spectrum::Spectrum;
 
 /// Red, green, blue and alpha at `uv`. Texel centres are at half-integers; v points up, rows run down.
 pub fn sample(texture: &ImageTexture, uv: DVec2) -> [f64; 4] {
@@ -40,7 +40,10 @@ pub fn luminance_gradient(texture: &ImageTexture, uv: DVec2) -> DVec2 {
     let low = (position - 0.5).floor();
     let is_triangle = texture.filter == TextureFilter::Triangle;
     let fraction = if is_triangle { DVec2::ZERO } else { position - 0.5 - low };
-    let height = |x: f64, y: f64| luminance(texel(image, texture.wrap, low + DVec2::new(x, y)).truncate());
+    let height = |x: f64, y: f64| {
+        let [red, green, blue, _] = texel(image, texture.wrap, low + DVec2::new(x, y)).to_array();
+        Spectrum::new(red, green, blue).luminance()
+    };
     let [h00, h10, h01, h11] = [height(0.0, 0.0), height(1.0, 0.0), height(0.0, 1.0), height(1.0, 1.0)];
     let right = (h10 - h00) + fraction.y * ((h11 - h01) - (h10 - h00));
     let down = (h01 - h00) + fraction.x * ((h11 - h10) - (h01 - h00));
@@ -104,9 +107,9 @@ mod tests {
         let mut texture = Texture::new("ramp", TextureKind::Image(ImageTexture { scale: [2.0, 1.0], ..image }));
         texture.transform.offset = [0.5, 0.0];
         let at = |texture: &Texture, u: f64, v: f64| look_up(std::slice::from_ref(texture), 0, DVec2::new(u, v));
-        assert_eq!(at(&texture, 0.6, 0.4), DVec3::new(2.0, 10.0, 0.0));
+        assert_eq!(at(&texture, 0.6, 0.4), Spectrum::new(2.0, 10.0, 0.0));
         // A quarter turn from u to v: (0.3, 0.1) scaled is (0.6, 0.1), turned (-0.1, 0.6), and moved (0.4, 0.6).
         texture.transform.rotation_degrees = 90.0;
-        assert_eq!(at(&texture, 0.3, 0.1), DVec3::new(1.0, 0.0, 0.0));
+        assert_eq!(at(&texture, 0.3, 0.1), Spectrum::new(1.0, 0.0, 0.0));
     }
 }

@@ -15,10 +15,11 @@ mod lattice;
 mod perlin;
 mod worley;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use crate::scene::texture::{mean_of_channel, mean_of_texture};
 use crate::scene::{Channel, ChannelInput, ColorInput, Scene, Texture, TextureId, TextureKind};
+use crate::spectrum::Spectrum;
 
 /// Texture coordinates at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,12 +43,12 @@ impl From<DVec2> for Coordinates {
 }
 
 /// The colour at `uv`.
-pub fn evaluate(scene: &Scene, input: &ColorInput, uv: Coordinates) -> DVec3 {
+pub fn evaluate(scene: &Scene, input: &ColorInput, uv: Coordinates) -> Spectrum {
     match *input {
         ColorInput::Constant(color) => color,
         ColorInput::Texture(texture) => look_up(&scene.textures, texture, uv),
         ColorInput::ScaledTexture(texture, factor) => factor * look_up(&scene.textures, texture, uv),
-        ColorInput::SquaredTexture(texture) => look_up(&scene.textures, texture, uv).powf(2.0),
+        ColorInput::SquaredTexture(texture) => look_up(&scene.textures, texture, uv).map(|channel| channel.powf(2.0)),
         ColorInput::Channel(ChannelInput { texture, channel, factor, is_squared }) => {
             let value = factor * look_up_channel(&scene.textures, texture, channel, uv);
             if is_squared { value * value } else { value }
@@ -56,12 +57,12 @@ pub fn evaluate(scene: &Scene, input: &ColorInput, uv: Coordinates) -> DVec3 {
 }
 
 /// The colour's mean over the whole texture; of noise, the middle between its two colours.
-pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
+pub fn mean(scene: &Scene, input: &ColorInput) -> Spectrum {
     match *input {
         ColorInput::Constant(color) => color,
         ColorInput::Texture(texture) => mean_of_texture(&scene.textures, texture),
         ColorInput::ScaledTexture(texture, factor) => factor * mean_of_texture(&scene.textures, texture),
-        ColorInput::SquaredTexture(texture) => mean_of_texture(&scene.textures, texture).powf(2.0),
+        ColorInput::SquaredTexture(texture) => mean_of_texture(&scene.textures, texture).map(|channel| channel.powf(2.0)),
         ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => {
             factor * mean_of_channel(&scene.textures, texture, channel)
         }
@@ -69,9 +70,9 @@ pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
 }
 
 /// The colour of one of the scene's textures at `uv`.
-pub fn look_up(textures: &[Texture], texture: TextureId, uv: impl Into<Coordinates>) -> DVec3 {
+pub fn look_up(textures: &[Texture], texture: TextureId, uv: impl Into<Coordinates>) -> Spectrum {
     let [red, green, blue, _] = texels(textures, texture, uv);
-    DVec3::new(red, green, blue)
+    Spectrum::new(red, green, blue)
 }
 
 /// One of its channels.
@@ -93,7 +94,7 @@ fn texels(textures: &[Texture], texture: TextureId, uv: impl Into<Coordinates>) 
 fn own_texels(texture: &Texture, uv: Coordinates) -> [f64; 4] {
     let uv = uv.of(texture);
     let at = |scale: [f64; 2]| texture.placed(uv * DVec2::from(scale));
-    let between = |a: DVec3, b: DVec3, share: f64| (a + share * (b - a)).extend(1.0).to_array();
+    let between = |a: Spectrum, b: Spectrum, share: f64| (a + share * (b - a)).extend(1.0).to_array();
     match texture.kind {
         TextureKind::Image(ref image) => image::sample(image, at(image.scale)),
         TextureKind::Checker { a, b, scale } => (if checker::is_first(at(scale)) { a } else { b }).extend(1.0).to_array(),

@@ -4,13 +4,13 @@
 //! or where such an error turns a decision over. So the reference follows the path again with [errors of that size](Rounding), and
 //! asks how far its own value moves. A difference that is not much larger than that is explained; any other is not.
 
-use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::cpu::ReferenceRenderer;
 use crate::reference::rounding::Rounding;
 use crate::sampling::hash::mix;
+use crate::spectrum::Spectrum;
 
 /// How often a path is followed before its difference counts as unexplained.
 const TRIES: u32 = 512;
@@ -40,7 +40,7 @@ pub struct Differing {
 impl Differing {
     /// In the channel where it is largest.
     pub fn difference(&self) -> f64 {
-        distance(DVec3::from(self.first.map(f64::from)), DVec3::from(self.second.map(f64::from)))
+        distance(Spectrum::from_f32(self.first), Spectrum::from_f32(self.second))
     }
 
     /// True if all channels agree to this share of the largest, or differ by less than underflow explains.
@@ -54,8 +54,8 @@ impl Differing {
 /// have stood before large ones.
 const UNDERFLOW: f64 = 1e-30;
 
-fn distance(a: DVec3, b: DVec3) -> f64 {
-    (a - b).abs().max_element()
+fn distance(a: Spectrum, b: Spectrum) -> f64 {
+    (a - b).map(f64::abs).max_component()
 }
 
 /// The explanation of a difference.
@@ -142,12 +142,12 @@ mod tests {
     }
 
     /// All pixels' samples number 0, as `change` leaves them, beside what they are.
-    fn pairs(reference: &ReferenceRenderer, change: impl Fn([u32; 3], DVec3) -> DVec3) -> Vec<Differing> {
+    fn pairs(reference: &ReferenceRenderer, change: impl Fn([u32; 3], Spectrum) -> Spectrum) -> Vec<Differing> {
         let pixels = (0..16).flat_map(|y| (0..24).map(move |x| [x, y, 0]));
         let pair = |path: [u32; 3]| {
             let [x, y, sample] = path;
             let value = reference.rounded_radiance(x, y, sample, &mut Rounding::none());
-            let [first, second] = [change(path, value), value].map(|value| value.as_vec3().to_array());
+            let [first, second] = [change(path, value), value].map(|value| value.to_f32());
             Differing { path, first, second }
         };
         pixels.map(pair).collect()
@@ -165,7 +165,7 @@ mod tests {
             let reference = ReferenceRenderer::new(&small(name)).expect("it is supported");
             for pair in pairs(&reference, |_, value| value) {
                 let [x, y, sample] = pair.path;
-                let exact = DVec3::from(reference.radiance_of_sample(x, y, sample)).as_vec3().to_array();
+                let exact = Spectrum::from_rgb(reference.radiance_of_sample(x, y, sample)).to_f32();
                 assert_eq!(pair.first, exact, "{name}, {:?}", pair.path);
             }
         }
@@ -218,8 +218,8 @@ mod tests {
         "#;
         let scene = load::load_toml_str(text, "planes", std::path::Path::new(".")).expect("it is sound");
         let reference = ReferenceRenderer::new(&scene).expect("it is supported");
-        let [red, blue, neither] = [DVec3::new(2.0, 0.1, 0.1), DVec3::new(0.1, 0.1, 3.0), DVec3::new(1.0, 0.1, 1.5)];
-        let causes = |other: fn([DVec3; 3], DVec3) -> DVec3| -> Vec<Cause> {
+        let [red, blue, neither] = [Spectrum::new(2.0, 0.1, 0.1), Spectrum::new(0.1, 0.1, 3.0), Spectrum::new(1.0, 0.1, 1.5)];
+        let causes = |other: fn([Spectrum; 3], Spectrum) -> Spectrum| -> Vec<Cause> {
             let pairs = pairs(&reference, |_, value| other([red, blue, neither], value));
             pairs.iter().map(|pair| of(pair, &reference)).collect()
         };

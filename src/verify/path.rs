@@ -16,6 +16,7 @@ use crate::reference::bsdf::Density;
 use crate::reference::trace::{FoundLight, PathTrace, PathVertex};
 use crate::renderer::RenderError;
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// Quantities of a path part where they differ by more than this share of their size: rounding, which bounces off curved surfaces
 /// multiply, stays below it for a few vertices.
@@ -119,10 +120,10 @@ pub fn compare_path(
     let reference = ReferenceRenderer::new(scene)?;
     let theirs = reference.trace(x, y, sample);
     let gpu_radiance = ours.radiance.map(f64::from);
-    let cpu_radiance = theirs.radiance.to_array();
+    let cpu_radiance = theirs.radiance.to_rgb();
     let cpu = reference_vertices(scene, &theirs);
     let gpu_vertices: Vec<Quantities> = ours.vertices.iter().map(|vertex| device_vertex(scene, vertex)).collect();
-    let differing = Differing { path: [x, y, sample], first: ours.radiance, second: theirs.radiance.as_vec3().to_array() };
+    let differing = Differing { path: [x, y, sample], first: ours.radiance, second: theirs.radiance.to_f32() };
     let cause = (!differing.agrees_to(PATH_TOLERANCE)).then(|| cause::of(&differing, &reference));
     Ok(PathComparison {
         scene: scene.name.clone(),
@@ -192,6 +193,10 @@ fn vector(v: DVec3) -> Value {
     Value::Vector(v.to_array())
 }
 
+fn color(color: Spectrum) -> Value {
+    Value::Vector(color.to_rgb())
+}
+
 fn single(v: [f32; 3]) -> Value {
     Value::Vector(v.map(f64::from))
 }
@@ -226,10 +231,10 @@ fn reference_vertices(scene: &Scene, trace: &PathTrace) -> Vec<Quantities> {
         if let Some((sample, vertex)) = trace.vertices.last().and_then(|vertex| Some((vertex.scattered?, vertex))) {
             let survival = vertex.roulette.map_or(1.0, |(survival, _)| survival);
             last.push(("direction", vector(sample.wi)));
-            last.push(("throughput", vector(vertex.throughput * sample.weight / survival)));
+            last.push(("throughput", color(vertex.throughput * sample.weight / survival)));
         } else if let Some(ray) = trace.rays.first() {
             last.push(("direction", vector(ray.direction)));
-            last.push(("throughput", vector(DVec3::ONE)));
+            last.push(("throughput", color(Spectrum::WHITE)));
         }
         push_found(&mut last, Some(escaped));
         vertices.push(last);
@@ -238,9 +243,9 @@ fn reference_vertices(scene: &Scene, trace: &PathTrace) -> Vec<Quantities> {
 }
 
 fn push_found(quantities: &mut Quantities, found: Option<FoundLight>) {
-    if let Some(found) = found.filter(|found| found.contribution != DVec3::ZERO) {
+    if let Some(found) = found.filter(|found| !found.contribution.is_black()) {
         quantities.push(("found weight", Value::Number(found.weight)));
-        quantities.push(("found", vector(found.contribution)));
+        quantities.push(("found", color(found.contribution)));
     }
 }
 
@@ -250,7 +255,7 @@ fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
         ("shape", Value::Text(scene.label_of(vertex.shape))),
         ("material", Value::Text(scene.materials[vertex.material].name.clone())),
         ("position", vector(vertex.position + scene.center())),
-        ("throughput", vector(vertex.throughput)),
+        ("throughput", color(vertex.throughput)),
     ];
     if let Some(normal) = vertex.shading_normal {
         quantities.push(("shading normal", vector(normal)));
@@ -265,7 +270,7 @@ fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
             ("BSDF pdf of it", Value::Number(connection.bsdf_pdf)),
             ("light weight", Value::Number(connection.weight)),
             ("light visible", yes_or_no(connection.visible)),
-            ("light adds", vector(connection.contribution)),
+            ("light adds", color(connection.contribution)),
         ]);
     }
     if let Some(sample) = vertex.scattered {
@@ -276,7 +281,7 @@ fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
         quantities.extend([
             ("sampled direction", vector(sample.wi)),
             ("sampled pdf", pdf_or_delta(pdf)),
-            ("sampled weight", vector(sample.weight)),
+            ("sampled weight", color(sample.weight)),
             ("lobe", lobe(sample.is_null, sample.eta * sample.eta)),
         ]);
     }

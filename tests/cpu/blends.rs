@@ -8,6 +8,7 @@ use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::*;
+use gpt::spectrum::Spectrum;
 
 const SIDE: u32 = 24;
 /// Renders of each picture, every one with a seed of its own.
@@ -74,7 +75,7 @@ fn stage() -> Scene {
     };
     let floor = material(&mut scene, MaterialKind::Diffuse { reflectance: grey(0.5) }, None);
     shape(&mut scene, Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::Y }), floor);
-    let emission = Emission { radiance: ColorInput::Constant(DVec3::new(4.0, 3.0, 2.0)), two_sided: false };
+    let emission = Emission { radiance: ColorInput::Constant(Spectrum::new(4.0, 3.0, 2.0)), two_sided: false };
     let lamp = material(&mut scene, MaterialKind::Emissive, Some(emission));
     let (corner, edge_u, edge_v) = (DVec3::new(-1.5, 4.0, -1.5), DVec3::X * 3.0, DVec3::Z * 3.0);
     shape(&mut scene, Geometry::Rectangle(Rectangle { corner, edge_u, edge_v }), lamp);
@@ -111,14 +112,15 @@ fn rough_glass(facets: Microfacets) -> MaterialKind {
 /// Balls of nested blends: every kind of lobe, a light among them, weights by angle and by noise.
 fn blended_balls() -> Scene {
     let mut scene = stage();
-    let (a, b) = (DVec3::ZERO, DVec3::ONE);
+    let (a, b) = (Spectrum::BLACK, Spectrum::WHITE);
     for kind in [TextureKind::Perlin { scale: 8.0, octaves: 3, a, b, seed: 1 }, TextureKind::Worley { scale: 9.0, a, b, seed: 2 }]
     {
         scene.textures.push(Texture::new(scene.textures.len().to_string(), kind));
     }
-    let red = material(&mut scene, MaterialKind::Diffuse { reflectance: ColorInput::Constant(DVec3::new(0.8, 0.2, 0.1)) }, None);
+    let red =
+        material(&mut scene, MaterialKind::Diffuse { reflectance: ColorInput::Constant(Spectrum::new(0.8, 0.2, 0.1)) }, None);
     let blue = MaterialKind::Phong {
-        diffuse: ColorInput::Constant(DVec3::new(0.1, 0.2, 0.5)),
+        diffuse: ColorInput::Constant(Spectrum::new(0.1, 0.2, 0.5)),
         specular: grey(0.3),
         exponent: grey(20.0),
     };

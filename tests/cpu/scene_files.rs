@@ -9,6 +9,7 @@ use gpt::scene::{
     self, BlendWeight, ColorInput, Disk, Geometry, Material, MaterialKind, Mesh, MisHeuristic, Plane, Projection, Rectangle,
     SamplerKind, Scene, TextureKind, TextureWrap,
 };
+use gpt::spectrum::Spectrum;
 use proptest::prelude::*;
 
 const CAMERA_AND_LIGHT: &str = r#"
@@ -97,7 +98,7 @@ fn every_shape_and_supported_material_is_read() {
     assert!(matches!(material(&scene, "b").kind, MaterialKind::Mirror { reflectance } if reflectance == ColorInput::grey(1.0)));
     assert!(matches!(material(&scene, "c").kind, MaterialKind::Glass { ior, .. } if ior == 1.33));
     let emission = material(&scene, "d").emission.unwrap_or_else(|| panic!("d emits"));
-    assert!(!emission.two_sided && emission.radiance == ColorInput::Constant(DVec3::new(1.0, 2.0, 3.0)));
+    assert!(!emission.two_sided && emission.radiance == ColorInput::Constant(Spectrum::new(1.0, 2.0, 3.0)));
     assert!(matches!(scene.shapes[2].geometry, Geometry::Disk(Disk { normal, .. }) if normal == DVec3::Z));
     assert!(matches!(scene.shapes[4].geometry, Geometry::Plane(Plane { normal, .. }) if normal == DVec3::Y));
 }
@@ -209,23 +210,23 @@ fn material_libraries_become_materials() {
     let scene = model(folder.path());
     let kind = |name| &material(&scene, name).kind;
     assert!(
-        matches!(kind("wall"), MaterialKind::Diffuse { reflectance: ColorInput::Constant(c) } if *c == DVec3::new(0.5, 0.4, 0.3))
+        matches!(kind("wall"), MaterialKind::Diffuse { reflectance: ColorInput::Constant(c) } if *c == Spectrum::new(0.5, 0.4, 0.3))
     );
     let emission = material(&scene, "lamp").emission.map(|emission| (emission.radiance, emission.two_sided));
-    assert_eq!(emission, Some((ColorInput::Constant(DVec3::new(3.0, 2.0, 1.0)), false)));
+    assert_eq!(emission, Some((ColorInput::Constant(Spectrum::new(3.0, 2.0, 1.0)), false)));
     assert!(matches!(kind("glass"), MaterialKind::Glass { ior, .. } if *ior == 1.5));
     assert!(matches!(kind("water"), MaterialKind::Glass { ior, .. } if (ior - 1.33).abs() < 1e-6));
     assert!(
-        matches!(kind("mirror"), MaterialKind::Mirror { reflectance } if *reflectance == ColorInput::Constant(DVec3::new(0.9, 0.8, 0.7)))
+        matches!(kind("mirror"), MaterialKind::Mirror { reflectance } if *reflectance == ColorInput::Constant(Spectrum::new(0.9, 0.8, 0.7)))
     );
     assert!(matches!(kind("nothing"), MaterialKind::Pass));
-    let grey = |value| ColorInput::Constant(DVec3::splat(value));
+    let grey = |value| ColorInput::Constant(Spectrum::grey(value));
     assert!(matches!(kind("gloss"), MaterialKind::Phong { diffuse, specular, exponent }
         if (*diffuse, *specular, *exponent) == (grey(0.2), grey(0.5), grey(30.0))));
     // Kd + Ks would be 1.3: Ks gives way.
     assert!(
         matches!(kind("bright"), MaterialKind::Phong { diffuse: ColorInput::Constant(diffuse), specular: ColorInput::Constant(specular), .. }
-        if diffuse.abs_diff_eq(DVec3::new(0.8, 0.4, 0.1), 1e-9) && specular.abs_diff_eq(DVec3::splat(0.2), 1e-9))
+        if diffuse.distance(Spectrum::new(0.8, 0.4, 0.1)) < 1e-9 && specular.distance(Spectrum::grey(0.2)) < 1e-9)
     );
     assert!(matches!(kind("veil"), MaterialKind::Diffuse { .. }));
     let MaterialKind::Blend { materials: [veil, behind], weight: BlendWeight::Constant { value: 0.25 } } =
@@ -238,7 +239,7 @@ fn material_libraries_become_materials() {
     let MaterialKind::Diffuse { reflectance: ColorInput::ScaledTexture(texture, tint) } = *kind("wood") else {
         panic!("wood has no tinted texture");
     };
-    assert_eq!(tint, DVec3::splat(0.5));
+    assert_eq!(tint, Spectrum::grey(0.5));
     let TextureKind::Image(image) = &scene.textures[texture].kind else { panic!("not an image") };
     assert_eq!((image.scale, image.wrap), ([2.0, 3.0], [TextureWrap::Clamp; 2]));
     // 128/255 decoded from sRGB.

@@ -5,10 +5,10 @@ use crate::common::picture::render_and_count;
 use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
-use gpt::math::luminance;
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::renderer::RenderReport;
 use gpt::scene::Scene;
+use gpt::spectrum::Spectrum;
 
 fn scene(clamp: f64) -> Scene {
     let mut scene = load::load(Some("veach-mis")).expect("it is built in");
@@ -30,11 +30,11 @@ fn what_clamping_takes_is_counted() {
     let (scene, free) = (scene(limit), scene(0.0));
     let (whole, untouched) = render_and_count(&mut ReferenceRenderer::new(&free).expect("it renders"), &free);
     assert_eq!((untouched.clamped_samples, untouched.clamped_units), (0, 0));
-    let whole = luminance(mean(&whole).into());
+    let whole = Spectrum::from_rgb(mean(&whole)).luminance();
     let (reference, expected) = render_and_count(&mut ReferenceRenderer::new(&scene).expect("it renders"), &scene);
     let check = |what: &str, pixels: &[[f32; 3]], report: &RenderReport| {
         assert!(pixels.as_flattened().iter().all(|channel| f64::from(*channel) <= limit * (1.0 + 1e-6)), "{what}");
-        let left = luminance(mean(pixels).into());
+        let left = Spectrum::from_rgb(mean(pixels)).luminance();
         let share = report.clamped_light(limit, mean(pixels));
         assert!(report.clamped_samples > 50 && share > 0.1, "{what}: {} samples, {share}", report.clamped_samples);
         assert!((left / (1.0 - share) / whole - 1.0).abs() < 1e-3, "{what}: {left} left, {share} taken of {whole}");

@@ -1,5 +1,7 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use glam::DVec3;
+
 use super::*;
 use crate::film::Band;
 use crate::renderer::Silent;
@@ -7,6 +9,7 @@ use crate::scene::{
     BlendWeight, Camera, ColorInput, Emission, FilmSettings, Geometry, Light, Material, MaterialKind, Plane, PointLight,
     Projection, Shape, Sphere, Transform,
 };
+use crate::spectrum::Spectrum;
 
 /// A diffuse, a mirror and a glass sphere on a floor, under a sphere light and a point light.
 fn scene(size: [u32; 2]) -> Scene {
@@ -20,7 +23,7 @@ fn scene(size: [u32; 2]) -> Scene {
     scene.render.spp = 4;
     let grey = ColorInput::grey;
     let kinds = [
-        MaterialKind::Diffuse { reflectance: ColorInput::Constant(DVec3::new(0.8, 0.5, 0.3)) },
+        MaterialKind::Diffuse { reflectance: ColorInput::Constant(Spectrum::new(0.8, 0.5, 0.3)) },
         MaterialKind::Mirror { reflectance: grey(0.9) },
         MaterialKind::Glass { ior: 1.5, reflectance: grey(1.0), transmittance: grey(1.0), thin: false },
         MaterialKind::Emissive,
@@ -37,7 +40,7 @@ fn scene(size: [u32; 2]) -> Scene {
         let transform = Transform::default();
         scene.shapes.push(Shape { label: "shape".into(), geometry, material, transform, motion: None, portal: false });
     }
-    scene.lights.push(Light::Point(PointLight { position: DVec3::new(-3.0, 4.0, 2.0), intensity: DVec3::splat(10.0) }));
+    scene.lights.push(Light::Point(PointLight { position: DVec3::new(-3.0, 4.0, 2.0), intensity: Spectrum::grey(10.0) }));
     scene
 }
 
@@ -81,8 +84,8 @@ fn bands_hold_the_means_of_their_samples() {
     for band in &bands {
         for (i, mean) in (0..).zip(&band.mean) {
             let (x, y) = (i % 9, band.first_row + i / 9);
-            let [a, b] = [5, 6].map(|sample| DVec3::from(renderer.radiance_of_sample(x, y, sample)));
-            assert_eq!(*mean, ((a + b) * 0.5).as_vec3().to_array(), "pixel {x}, {y}");
+            let [a, b] = [5, 6].map(|sample| Spectrum::from_rgb(renderer.radiance_of_sample(x, y, sample)));
+            assert_eq!(*mean, ((a + b) * 0.5).to_f32(), "pixel {x}, {y}");
         }
     }
 }
@@ -94,14 +97,14 @@ fn a_trace_tells_where_the_radiance_came_from() {
     let mut connected = 0;
     for (x, y) in (0..20).flat_map(|x| (0..14).map(move |y| (x, y))) {
         let trace = renderer.trace(x, y, 3);
-        assert_eq!(trace.radiance.to_array(), renderer.radiance_of_sample(x, y, 3));
-        let mut sum = trace.escaped.map_or(DVec3::ZERO, |found| found.contribution);
+        assert_eq!(trace.radiance.to_rgb(), renderer.radiance_of_sample(x, y, 3));
+        let mut sum = trace.escaped.map_or(Spectrum::BLACK, |found| found.contribution);
         for vertex in &trace.vertices {
-            sum += vertex.emission.map_or(DVec3::ZERO, |found| found.contribution);
-            sum += vertex.light.map_or(DVec3::ZERO, |light| light.contribution);
+            sum += vertex.emission.map_or(Spectrum::BLACK, |found| found.contribution);
+            sum += vertex.light.map_or(Spectrum::BLACK, |light| light.contribution);
             connected += usize::from(vertex.light.is_some());
         }
-        assert!((sum - trace.radiance).length() <= 1e-12 * sum.length(), "{trace:?}");
+        assert!(sum.distance(trace.radiance) <= 1e-12 * sum.to_vector().length(), "{trace:?}");
         assert!(trace.vertices.iter().zip(1..).all(|(vertex, depth)| vertex.depth == depth));
     }
     assert!(connected > 100, "{connected}");
@@ -172,7 +175,7 @@ fn what_is_not_finite_is_counted_and_left_out() {
     // No scene may hold these, and no film takes them.
     for radiance in [f64::INFINITY, f64::NAN, -1.0] {
         assert!(ReferenceRenderer::new(&emit(radiance)).is_err(), "{radiance}");
-        assert!(!is_acceptable(DVec3::splat(radiance)) && is_acceptable(DVec3::ONE), "{radiance}");
+        assert!(!is_acceptable(Spectrum::grey(radiance)) && is_acceptable(Spectrum::WHITE), "{radiance}");
     }
 }
 

@@ -33,8 +33,6 @@ pub fn loss_with_guide(integrator: &mut Integrator) -> f64 {
 mod tests {
     use std::path::Path;
 
-    use glam::DVec3;
-
     use super::super::super::guide;
     use super::super::super::paths::{follow, pixel_of};
     use super::super::unguided::{Tale, UnguidedRecord};
@@ -44,6 +42,7 @@ mod tests {
     use crate::load;
     use crate::sampling::Sampling;
     use crate::scene::{Estimator, Guiding, MisHeuristic, NumberOrAuto, RenderSettings, SamplerKind};
+    use crate::spectrum::Spectrum;
 
     /// A room 4 wide whose light comes round the end of a wall, from a lamp of this WIDTH, on glaze and a
     /// mirror too.
@@ -102,7 +101,7 @@ mod tests {
         ];
         for change in changes {
             let mut integrator = guided("3", change);
-            let with_rays = |moment: DVec3, rays: Rays| [moment.element_sum(), rays.path + rays.shadow];
+            let with_rays = |moment: Spectrum, rays: Rays| [moment.sum(), rays.path + rays.shadow];
             let told = moments(&integrator, 1, |tale| with_rays(tale.unguided, tale.rays));
             integrator.set_guide(None);
             let without = moments(&integrator, 2, |tale| with_rays(tale.guided, tale.rays));

@@ -1,6 +1,5 @@
 //! The pixels of a trial run as one way of drawing from lights renders them.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::super::extent::pixel_count;
@@ -14,6 +13,7 @@ use crate::reference::work;
 use crate::sampling::hash::mix;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// One of so many pixels is tried, within these numbers.
 const ONE_OF_PIXELS: u64 = 1 << 10;
@@ -78,18 +78,18 @@ impl Found {
     }
 
     pub fn has_noise(&self) -> bool {
-        self.pixels.iter().any(|pixel| pixel.variance != DVec3::ZERO)
+        self.pixels.iter().any(|pixel| !pixel.variance.is_black())
     }
 
     /// The pixels, with what their squared errors are multiplied by.
-    fn weighed(&self) -> impl Iterator<Item = (&TriedPixel, DVec3)> {
+    fn weighed(&self) -> impl Iterator<Item = (&TriedPixel, Spectrum)> {
         self.pixels.iter().map(|pixel| (pixel, weight(pixel.in_view + pixel.mean)))
     }
 
     /// The error of light beyond what is in view, and that of what is.
     fn errors(&self, in_view: &InView) -> [f64; 2] {
-        let beyond: DVec3 = self.pixels.iter().map(|pixel| pixel.mean).sum();
-        let own = self.weighed().map(|(pixel, weight)| pixel.variance.dot(weight)).sum();
+        let beyond: Spectrum = self.pixels.iter().map(|pixel| pixel.mean).sum();
+        let own = self.weighed().map(|(pixel, weight)| (pixel.variance * weight).sum()).sum();
         [own, in_view.error(beyond / self.pixels.len() as f64)]
     }
 
@@ -97,7 +97,7 @@ impl Found {
     /// relative to what one of them found alone, its own outliers would count for less than those of the
     /// other.
     pub fn loss_over(&self, other: &Self, in_view: &InView) -> f64 {
-        let together: Vec<DVec3> = self.together(other).collect();
+        let together: Vec<Spectrum> = self.together(other).collect();
         self.loss_beside(other, in_view, &together)
     }
 
@@ -107,24 +107,24 @@ impl Found {
     pub fn loss_of_outliers_over(&self, other: &Self, in_view: &InView) -> f64 {
         let mut patches = Patches::new(self.pixels.len());
         (0..).zip(self.together(other)).for_each(|(number, found)| patches.add(number, found));
-        let around: Vec<DVec3> = (0..self.pixels.len() as u32).map(|number| patches.mean_around(number)).collect();
+        let around: Vec<Spectrum> = (0..self.pixels.len() as u32).map(|number| patches.mean_around(number)).collect();
         self.loss_beside(other, in_view, &around)
     }
 
     /// The light that two ways found beyond light in view, as a mean for each pixel.
-    fn together(&self, other: &Self) -> impl Iterator<Item = DVec3> {
+    fn together(&self, other: &Self) -> impl Iterator<Item = Spectrum> {
         self.pixels.iter().zip(&other.pixels).map(|(own, others)| 0.5 * (own.mean + others.mean))
     }
 
     /// With errors relative to so much light beyond what is in view.
-    fn loss_beside(&self, other: &Self, in_view: &InView, beyond: &[DVec3]) -> f64 {
+    fn loss_beside(&self, other: &Self, in_view: &InView, beyond: &[Spectrum]) -> f64 {
         let mut errors = [0.0; 2];
         for ((own, others), beyond) in self.pixels.iter().zip(&other.pixels).zip(beyond) {
             let weight = weight(own.in_view + *beyond);
-            errors[0] += own.variance.dot(weight);
-            errors[1] += others.variance.dot(weight);
+            errors[0] += (own.variance * weight).sum();
+            errors[1] += (others.variance * weight).sum();
         }
-        let of_view = in_view.error(self.together(other).sum::<DVec3>() / self.pixels.len() as f64);
+        let of_view = in_view.error(self.together(other).sum::<Spectrum>() / self.pixels.len() as f64);
         (errors[0] + of_view) * self.cost / ((errors[1] + of_view) * other.cost)
     }
 }
@@ -135,7 +135,7 @@ pub fn errors_of_guiding(found: &Found, tales: &[Tale], in_view: &InView) -> [f6
     let mut variances = [0.0; 2];
     for ((pixel, weight), tale) in found.weighed().zip(tales) {
         for (variance, moment) in variances.iter_mut().zip([tale.guided, tale.unguided]) {
-            *variance += (moment - pixel.mean * pixel.mean).dot(weight);
+            *variance += ((moment - pixel.mean * pixel.mean) * weight).sum();
         }
     }
     let [error, of_view] = found.errors(in_view);
@@ -148,14 +148,14 @@ pub fn errors_of_guiding(found: &Found, tales: &[Tale], in_view: &InView) -> [f6
 struct Patches {
     side: u32,
     /// The sum over a patch's pixels, and how many they are.
-    sums: Vec<(DVec3, f64)>,
+    sums: Vec<(Spectrum, f64)>,
 }
 
 impl Patches {
     /// Patches of about [`PIXELS_OF_PATCH`] tried pixels each, as many along either side of the film.
     fn new(pixels: usize) -> Self {
         let side = (pixels / PIXELS_OF_PATCH).isqrt().max(1) as u32;
-        Self { side, sums: vec![(DVec3::ZERO, 0.0); (side * side) as usize] }
+        Self { side, sums: vec![(Spectrum::BLACK, 0.0); (side * side) as usize] }
     }
 
     fn index(&self, number: u32) -> usize {
@@ -164,28 +164,28 @@ impl Patches {
     }
 
     /// Adds the light of the pixel with this number.
-    fn add(&mut self, number: u32, found: DVec3) {
+    fn add(&mut self, number: u32, found: Spectrum) {
         let index = self.index(number);
         let (sum, count) = &mut self.sums[index];
         (*sum, *count) = (*sum + found, *count + 1.0);
     }
 
-    fn mean_around(&self, number: u32) -> DVec3 {
+    fn mean_around(&self, number: u32) -> Spectrum {
         let (sum, count) = self.sums[self.index(number)];
         sum / count
     }
 }
 
 /// The weight of squared errors, for each channel.
-fn weight(mean: DVec3) -> DVec3 {
-    DVec3::from_array(mean.to_array().map(relative_weight))
+fn weight(mean: Spectrum) -> Spectrum {
+    mean.map(relative_weight)
 }
 
 /// Lamps and the environment as they are in view. All ways of drawing from lights have the same noise at
 /// their edges, which few pixels show: those that are tried may miss them.
 pub struct InView {
     /// Mean and variance of pixels.
-    pixels: Vec<[DVec3; 2]>,
+    pixels: Vec<[Spectrum; 2]>,
     /// So many times as many as are tried.
     times: u32,
 }
@@ -197,7 +197,7 @@ impl InView {
         let pictures = pictures(integrator, PICTURES_IN_VIEW);
         let look = |number| {
             let found = pictures.iter().map(|picture| picture.show::<()>(integrator, number).in_view);
-            mean_and_variance(&found.collect::<Vec<DVec3>>())
+            mean_and_variance(&found.collect::<Vec<Spectrum>>())
         };
         let (mut found, mut times, mut spent) = (Vec::new(), 0, 0);
         while times < MORE_PIXELS && spent <= MOST_WORK_IN_VIEW {
@@ -215,8 +215,8 @@ impl InView {
 
     /// The error of light in view in as many pixels as are tried; `beyond` is the light that comes from
     /// elsewhere.
-    fn error(&self, beyond: DVec3) -> f64 {
-        let error: f64 = self.pixels.iter().map(|[mean, variance]| variance.dot(weight(*mean + beyond))).sum();
+    fn error(&self, beyond: Spectrum) -> f64 {
+        let error: f64 = self.pixels.iter().map(|[mean, variance]| (*variance * weight(*mean + beyond)).sum()).sum();
         error / f64::from(self.times)
     }
 }
@@ -261,26 +261,26 @@ impl Picture {
 /// Light that the first edges of a pixel's paths find, and light beyond those.
 #[derive(Default)]
 struct Shown<T> {
-    in_view: DVec3,
-    beyond: DVec3,
+    in_view: Spectrum,
+    beyond: Spectrum,
     rays: Rays,
     /// By all samples together.
     told: T,
 }
 
 /// The mean of some values, and the variance of one of them.
-fn mean_and_variance(found: &[DVec3]) -> [DVec3; 2] {
+fn mean_and_variance(found: &[Spectrum]) -> [Spectrum; 2] {
     let count = found.len() as f64;
-    let mean = found.iter().sum::<DVec3>() / count;
-    [mean, found.iter().map(|one| (*one - mean) * (*one - mean)).sum::<DVec3>() / (count - 1.0)]
+    let mean = found.iter().copied().sum::<Spectrum>() / count;
+    [mean, found.iter().map(|one| (*one - mean) * (*one - mean)).sum::<Spectrum>() / (count - 1.0)]
 }
 
 /// The result of a pixel.
 struct TriedPixel {
-    in_view: DVec3,
+    in_view: Spectrum,
     /// Light beyond, and its variance in one of the pictures.
-    mean: DVec3,
-    variance: DVec3,
+    mean: Spectrum,
+    variance: Spectrum,
     rays: Rays,
 }
 
@@ -288,8 +288,8 @@ impl TriedPixel {
     /// With what a sample of it tells of other ways.
     fn of<R: Record>(integrator: &Integrator, pictures: &[Picture], number: u32) -> (Self, R::Told) {
         let shown: Vec<Shown<R::Told>> = pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
-        let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<DVec3>>());
-        let in_view = shown.iter().map(|shown| shown.in_view).sum::<DVec3>() / f64::from(PICTURES);
+        let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<Spectrum>>());
+        let in_view = shown.iter().map(|shown| shown.in_view).sum::<Spectrum>() / f64::from(PICTURES);
         let told = shown.iter().fold(R::Told::default(), |sum, shown| sum.and(shown.told));
         let rays = shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays));
         (Self { in_view, mean, variance, rays }, told.times(1.0 / f64::from(PICTURES * SAMPLES)))
@@ -319,12 +319,12 @@ mod tests {
     /// or all. A light that fills the view does not.
     #[test]
     fn edges_of_lamps_in_view_have_noise() {
-        let beyond = DVec3::ZERO;
+        let beyond = Spectrum::BLACK;
         let error = |from, to, pixels| InView::new(&mut lamp(from, to), pixels).error(beyond) / f64::from(pixels);
         assert_eq!(error(-9.0, 9.0, 64), 0.0);
         let [few, all] = [64, 1024].map(|pixels| error(-0.517, 0.391, pixels));
         assert!(all > 0.0 && (few / all - 1.0).abs() < 0.3, "{few} and {all}");
         // Relative to more light, it is less.
-        assert!(InView::new(&mut lamp(-0.517, 0.391), 64).error(DVec3::splat(10.0)) < 0.1 * 64.0 * few);
+        assert!(InView::new(&mut lamp(-0.517, 0.391), 64).error(Spectrum::grey(10.0)) < 0.1 * 64.0 * few);
     }
 }

@@ -8,22 +8,21 @@
 //! paths is the second moment of a sample without a guide, and the mean of rₖ over all rays is the number of
 //! its rays.
 
-use glam::DVec3;
-
 use super::sum::{Rays, Sum};
 use super::watched::Record;
 use crate::reference::bsdf::{BsdfSample, Density};
 use crate::reference::trace::LightConnection;
 use crate::reference::{mis, roulette};
 use crate::scene::{Estimator, MisHeuristic, RenderSettings};
+use crate::spectrum::Spectrum;
 
 /// Moments and rays of a sample, as guided paths tell them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tale {
     /// Second moment of what guided ones find.
-    pub guided: DVec3,
+    pub guided: Spectrum,
     /// Second moment of what unguided ones would find, and their rays.
-    pub unguided: DVec3,
+    pub unguided: Spectrum,
     pub rays: Rays,
 }
 
@@ -50,20 +49,20 @@ pub struct UnguidedRecord {
     /// Density with the guide of the direction from the surface before, and how many times that it is without
     /// the guide.
     previous: (Density, f64),
-    throughput: DVec3,
+    throughput: Spectrum,
     eta_scale: f64,
     depth: u32,
     /// The light that the path finds, with the guide and without it, and the second moment of the latter.
-    found: DVec3,
-    unguided: DVec3,
-    moment: DVec3,
+    found: Spectrum,
+    unguided: Spectrum,
+    moment: Spectrum,
     rays: Rays,
 }
 
 impl UnguidedRecord {
     /// Adds light that the path found; without the guide it has another weight.
-    fn add(&mut self, contribution: DVec3, [weight, unguided]: [f64; 2]) {
-        if contribution == DVec3::ZERO {
+    fn add(&mut self, contribution: Spectrum, [weight, unguided]: [f64; 2]) {
+        if contribution.is_black() {
             return;
         }
         self.found += contribution;
@@ -88,12 +87,12 @@ impl Record for UnguidedRecord {
             density: 1.0,
             times: 1.0,
             previous: (Density::Delta, 1.0),
-            throughput: DVec3::ONE,
+            throughput: Spectrum::WHITE,
             eta_scale: 1.0,
             depth: 1,
-            found: DVec3::ZERO,
-            unguided: DVec3::ZERO,
-            moment: DVec3::ZERO,
+            found: Spectrum::BLACK,
+            unguided: Spectrum::BLACK,
+            moment: Spectrum::BLACK,
             rays: Rays::default(),
         }
     }
@@ -106,7 +105,7 @@ impl Record for UnguidedRecord {
         self.rays = self.rays.and(rays.times(self.density));
     }
 
-    fn met(&mut self, depth: u32, throughput: DVec3) {
+    fn met(&mut self, depth: u32, throughput: Spectrum) {
         self.depth = depth;
         self.throughput = throughput;
     }
@@ -122,7 +121,7 @@ impl Record for UnguidedRecord {
         self.add(*contribution, [*weight, unguided]);
     }
 
-    fn found(&mut self, weight: f64, contribution: DVec3) {
+    fn found(&mut self, weight: f64, contribution: Spectrum) {
         let unguided = match self.previous {
             (Density::SolidAngle(pdf), times) if self.estimator == Estimator::Mis && weight > 0.0 => {
                 let odds = (1.0 / weight - 1.0).max(0.0);

@@ -8,6 +8,7 @@ use crate::reference::bsdf::BsdfSample;
 use crate::reference::intersect::Surface;
 use crate::reference::trace::{LightConnection, PathVisitor};
 use crate::scene::RenderSettings;
+use crate::spectrum::Spectrum;
 
 /// A record of a path that tells how other ways would trace it. Light in view is no part of that: no other
 /// way changes it.
@@ -23,13 +24,13 @@ pub trait Record {
     /// A ray of the path, or a shadow ray, was traced.
     fn traced(&mut self, _rays: Rays) {}
     /// The path met a surface.
-    fn met(&mut self, _depth: u32, _throughput: DVec3) {}
+    fn met(&mut self, _depth: u32, _throughput: Spectrum) {}
     /// The next direction is told as by [`PathVisitor::unguided`].
     fn unguided(&mut self, _times: f64) {}
     /// Light was sampled.
     fn light(&mut self, _connection: &LightConnection) {}
     /// The path found light by itself, with this weight by multiple importance sampling.
-    fn found(&mut self, _weight: f64, _contribution: DVec3) {}
+    fn found(&mut self, _weight: f64, _contribution: Spectrum) {}
     /// The path goes on, unless roulette ends it.
     fn scattered(&mut self, _sample: &BsdfSample) {}
     /// Roulette let the path go on with this chance.
@@ -49,14 +50,14 @@ impl Record for () {
 pub struct Watched<R> {
     pub rays: Rays,
     /// Light of its first edge, on which it may have gone through null surfaces.
-    pub in_view: DVec3,
+    pub in_view: Spectrum,
     scatters: bool,
     pub record: R,
 }
 
 impl<R: Record> Watched<R> {
     pub fn new(settings: &RenderSettings) -> Self {
-        Self { rays: Rays::default(), in_view: DVec3::ZERO, scatters: false, record: R::new(settings) }
+        Self { rays: Rays::default(), in_view: Spectrum::BLACK, scatters: false, record: R::new(settings) }
     }
 
     fn traced(&mut self, rays: Rays) {
@@ -64,7 +65,7 @@ impl<R: Record> Watched<R> {
         self.record.traced(rays);
     }
 
-    fn found(&mut self, weight: f64, contribution: DVec3) {
+    fn found(&mut self, weight: f64, contribution: Spectrum) {
         if self.scatters {
             self.record.found(weight, contribution);
         } else {
@@ -76,12 +77,12 @@ impl<R: Record> Watched<R> {
 impl<R: Record> PathVisitor for Watched<R> {
     const COMPARES: bool = R::COMPARES;
 
-    fn surface(&mut self, depth: u32, _: &Surface, _: DVec3, throughput: DVec3) {
+    fn surface(&mut self, depth: u32, _: &Surface, _: DVec3, throughput: Spectrum) {
         self.traced(Rays::PATH);
         self.record.met(depth, throughput);
     }
 
-    fn emission(&mut self, _: DVec3, weight: f64, contribution: DVec3) {
+    fn emission(&mut self, _: Spectrum, weight: f64, contribution: Spectrum) {
         self.found(weight, contribution);
     }
 
@@ -105,7 +106,7 @@ impl<R: Record> PathVisitor for Watched<R> {
         }
     }
 
-    fn escaped(&mut self, _: DVec3, weight: f64, contribution: DVec3) {
+    fn escaped(&mut self, _: Spectrum, weight: f64, contribution: Spectrum) {
         self.traced(Rays::PATH);
         self.found(weight, contribution);
     }

@@ -4,20 +4,20 @@ use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
-use glam::DVec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use super::reference::{NamesTextures, TextureName};
-use super::value::{Checked, Exactly, Located, NonNegative, Rule, Temperature, triple};
+use super::value::{Checked, Exactly, Located, NonNegative, Rule, Temperature};
 use crate::black_body::black_body;
 use crate::math::srgb_to_linear_f64;
 use crate::scene::Channel;
+use crate::spectrum::Spectrum;
 
 /// `[r, g, b]`, one number for grey, `"#rrggbb"` or `{ kelvin = 3200 }`.
 #[derive(Debug, Clone)]
-pub struct Rgb<R>(pub DVec3, PhantomData<R>);
+pub struct Rgb<R>(pub Spectrum, PhantomData<R>);
 
 /// A colour as [`Rgb`], or `{ texture = "name" }`.
 #[derive(Debug, Clone)]
@@ -85,12 +85,12 @@ struct ShareTable {
 }
 
 impl TemperatureTable {
-    fn colour<R: Rule, E: Error>(self) -> Result<DVec3, E> {
+    fn colour<R: Rule, E: Error>(self) -> Result<Spectrum, E> {
         if self.factor.is_some() && is_share::<R>() {
             return Err(E::custom("a temperature has a `factor` where the colour is one of light, not a share of it"));
         }
-        let colour = black_body(self.kelvin.0) * self.factor.map_or(DVec3::ONE, |factor| factor.0);
-        colour.to_array().into_iter().try_for_each(|channel| Checked::<R>::new(channel).map(|_| ()))?;
+        let colour = black_body(self.kelvin.0) * self.factor.map_or(Spectrum::WHITE, |factor| factor.0);
+        colour.to_rgb().into_iter().try_for_each(|channel| Checked::<R>::new(channel).map(|_| ()))?;
         Ok(colour)
     }
 }
@@ -105,12 +105,12 @@ fn is_share<R: Rule>() -> bool {
 }
 
 /// The linear colour that `#rrggbb` is in sRGB.
-fn hexadecimal(text: &str) -> Option<DVec3> {
+fn hexadecimal(text: &str) -> Option<Spectrum> {
     let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6)?;
     let is_digit = |byte: u8| byte.is_ascii_hexdigit();
     let code = u32::from_str_radix(digits, 16).ok().filter(|_| digits.bytes().all(is_digit))?;
     let [_, red, green, blue] = code.to_be_bytes().map(|byte| srgb_to_linear_f64(f64::from(byte) / 255.0));
-    Some(DVec3::new(red, green, blue))
+    Some(Spectrum::new(red, green, blue))
 }
 
 /// A texture in place of a number.
@@ -213,7 +213,7 @@ impl<'de, R: Rule, T: Deserialize<'de>> Visitor<'de> for FormVisitor<R, T> {
         let Some(colour) = hexadecimal(text) else {
             return Err(E::custom(format_args!("expected a colour such as \"#ff8800\", found \"{text}\"")));
         };
-        let [red, green, blue] = colour.to_array().map(Checked::new);
+        let [red, green, blue] = colour.to_rgb().map(Checked::new);
         Ok(Form::Triple([red?, green?, blue?]))
     }
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
@@ -224,22 +224,26 @@ impl<'de, R: Rule, T: Deserialize<'de>> Visitor<'de> for FormVisitor<R, T> {
     }
 }
 
+fn rgb<R>(values: [Checked<R>; 3]) -> Spectrum {
+    Spectrum::from_rgb(values.map(|value| value.0))
+}
+
 impl<R: Rule> Rgb<R> {
     /// The colour.
     ///
     /// # Errors
     /// A sentence about a channel that `R` does not accept.
-    pub fn of(colour: DVec3) -> Result<Self, String> {
-        colour.to_array().into_iter().try_for_each(|channel| Checked::<R>::of(channel).map(|_| ()))?;
+    pub fn of(colour: Spectrum) -> Result<Self, String> {
+        colour.to_rgb().into_iter().try_for_each(|channel| Checked::<R>::of(channel).map(|_| ()))?;
         Ok(Self(colour, PhantomData))
     }
 
     /// Reads three numbers or one that stands for all three; `words` say what is expected.
-    pub fn deserialize_as<'de, D: Deserializer<'de>>(deserializer: D, words: &'static str) -> Result<DVec3, D::Error> {
+    pub fn deserialize_as<'de, D: Deserializer<'de>>(deserializer: D, words: &'static str) -> Result<[f64; 3], D::Error> {
         let visitor = FormVisitor::<R, IgnoredAny> { words, triple: true, texture: false, code: false, of: PhantomData };
         match deserializer.deserialize_any(visitor)? {
-            Form::Triple(values) => Ok(triple(values)),
-            Form::Number(number) => Ok(DVec3::splat(number.0)),
+            Form::Triple(values) => Ok(values.map(|value| value.0)),
+            Form::Number(number) => Ok([number.0; 3]),
             Form::Texture(_) => Err(Error::custom("a texture is not possible here")),
         }
     }
@@ -248,13 +252,14 @@ impl<R: Rule> Rgb<R> {
 impl<'de, R: Rule> Deserialize<'de> for Rgb<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         if !is_colour::<R>() {
-            return Ok(Self(Self::deserialize_as(deserializer, "[r, g, b] or one number")?, PhantomData));
+            let channels = Self::deserialize_as(deserializer, "[r, g, b] or one number")?;
+            return Ok(Self(Spectrum::from_rgb(channels), PhantomData));
         }
         let words = "a colour: [r, g, b], one number, \"#rrggbb\" or { kelvin = 3200 }";
         let visitor = FormVisitor::<R, TemperatureTable> { words, triple: true, texture: true, code: true, of: PhantomData };
         let colour = match deserializer.deserialize_any(visitor)? {
-            Form::Triple(values) => triple(values),
-            Form::Number(number) => DVec3::splat(number.0),
+            Form::Triple(values) => rgb(values),
+            Form::Number(number) => Spectrum::grey(number.0),
             Form::Texture(temperature) => temperature.colour::<R, D::Error>()?,
         };
         Ok(Self(colour, PhantomData))
@@ -266,8 +271,8 @@ impl<'de, R: Rule> Deserialize<'de> for Colour<R> {
         let words = "a colour: [r, g, b], one number, \"#rrggbb\", { kelvin = 3200 } or { texture = \"name\" }";
         let visitor = FormVisitor::<R, ColourTable> { words, triple: true, texture: true, code: true, of: PhantomData };
         Ok(match deserializer.deserialize_any(visitor)? {
-            Form::Number(value) => Self::Constant(Rgb(DVec3::splat(value.0), PhantomData)),
-            Form::Triple(values) => Self::Constant(Rgb(triple(values), PhantomData)),
+            Form::Number(value) => Self::Constant(Rgb(Spectrum::grey(value.0), PhantomData)),
+            Form::Triple(values) => Self::Constant(Rgb(rgb(values), PhantomData)),
             Form::Texture(ColourTable { texture: Some(texture), channel, kelvin: None, factor }) => {
                 Self::Texture(ColourTexture { texture, channel, factor }.into())
             }
@@ -324,7 +329,7 @@ impl<R: Rule> Colour<R> {
     ///
     /// # Errors
     /// A sentence about a channel that `R` does not accept.
-    pub fn constant(colour: DVec3) -> Result<Self, String> {
+    pub fn constant(colour: Spectrum) -> Result<Self, String> {
         Rgb::of(colour).map(Self::Constant)
     }
 
@@ -332,8 +337,8 @@ impl<R: Rule> Colour<R> {
     ///
     /// # Errors
     /// A sentence about a factor below 0.
-    pub fn of_texture(texture: Located<TextureName>, factor: DVec3) -> Result<Self, String> {
-        let factor = if factor == DVec3::ONE { None } else { Some(Rgb::of(factor)?) };
+    pub fn of_texture(texture: Located<TextureName>, factor: Spectrum) -> Result<Self, String> {
+        let factor = if factor == Spectrum::WHITE { None } else { Some(Rgb::of(factor)?) };
         Ok(Self::Texture(TextureReference { texture, channel: None, factor }))
     }
 }
@@ -342,8 +347,8 @@ impl<R> Colour<R> {
     /// The largest channel, where textures are at most white.
     pub fn largest(&self) -> f64 {
         match self {
-            Self::Constant(colour) => colour.0.max_element(),
-            Self::Texture(texture) => texture.factor.as_ref().map_or(1.0, |factor| factor.0.max_element()),
+            Self::Constant(colour) => colour.0.max_component(),
+            Self::Texture(texture) => texture.factor.as_ref().map_or(1.0, |factor| factor.0.max_component()),
         }
     }
 }
@@ -370,7 +375,7 @@ impl<R: Rule> Scalar<R> {
 /// Black.
 impl<R> Default for Colour<R> {
     fn default() -> Self {
-        Self::Constant(Rgb(DVec3::ZERO, PhantomData))
+        Self::Constant(Rgb(Spectrum::BLACK, PhantomData))
     }
 }
 

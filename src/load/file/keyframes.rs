@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer};
 use super::colour::{Rgb, any_of};
 use super::value::{Any, Checked, FieldOfView, Located, NonNegative, Number, Positive, Vector, vector};
 use crate::scene::animation::Interpolation;
+use crate::spectrum::Spectrum;
 
 /// One factor or one per axis.
 #[derive(Debug, Clone)]
@@ -16,7 +17,8 @@ pub struct ScaleEntry(pub DVec3);
 
 impl<'de> Deserialize<'de> for ScaleEntry {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Rgb::<Any>::deserialize_as(deserializer, "one factor or one per axis").map(ScaleEntry)
+        Rgb::<Any>::deserialize_as(deserializer, "one factor or one per axis")
+            .map(|factors| ScaleEntry(DVec3::from_array(factors)))
     }
 }
 
@@ -122,7 +124,7 @@ pub struct LightKey<'a> {
     pub position: Option<DVec3>,
     pub direction: Option<&'a Located<Vector>>,
     /// Intensity, irradiance or radiance.
-    pub strength: Option<DVec3>,
+    pub strength: Option<Spectrum>,
     /// Rotation of an environment.
     pub rotation_degrees: Option<f64>,
 }
@@ -214,7 +216,7 @@ impl LightKey<'_> {
     }
 }
 
-fn rgb(written: Option<&Rgb<NonNegative>>) -> Option<DVec3> {
+fn rgb(written: Option<&Rgb<NonNegative>>) -> Option<Spectrum> {
     written.map(|colour| colour.0)
 }
 

@@ -22,6 +22,7 @@ use crate::picture_file::Hints;
 use crate::scene::animation::Deformation;
 use crate::scene::texture::{KnownRanges, range_of_texture};
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
+use crate::spectrum::Spectrum;
 
 /// Images by file and by how their values are read, so that each is decoded once.
 pub type ImageCache = HashMap<(PictureSource, Option<ColorSpace>), CachedImage>;
@@ -256,7 +257,7 @@ impl<'a> Resolver<'a> {
         match written {
             Colour::Constant(colour) => Ok(ColorInput::Constant(colour.0)),
             Colour::Texture(TextureReference { texture, channel, factor }) => {
-                let factor = factor.as_ref().map_or(DVec3::ONE, |factor| factor.0);
+                let factor = factor.as_ref().map_or(Spectrum::WHITE, |factor| factor.0);
                 self.texture_in_range::<R>(texture, *channel, factor)
             }
         }
@@ -267,21 +268,25 @@ impl<'a> Resolver<'a> {
         &self,
         name: &Located<TextureName>,
         channel: Option<Channel>,
-        factor: DVec3,
+        factor: Spectrum,
     ) -> Result<ColorInput, SceneError> {
         let texture = self.texture_id(name)?;
         let (low, high) = range_of_texture(&self.scene.textures, texture, channel, &mut self.ranges.borrow_mut());
         let input = match channel {
             Some(channel) => ColorInput::Channel(ChannelInput { texture, channel, factor, is_squared: false }),
-            None if factor == DVec3::ONE => ColorInput::Texture(texture),
+            None if factor == Spectrum::WHITE => ColorInput::Texture(texture),
             None => ColorInput::ScaledTexture(texture, factor),
         };
-        let ends =
-            [low * factor.min_element(), low * factor.max_element(), high * factor.min_element(), high * factor.max_element()];
+        let ends = [
+            low * factor.min_component(),
+            low * factor.max_component(),
+            high * factor.min_component(),
+            high * factor.max_component(),
+        ];
         match ends.into_iter().find(|&value| !R::accepts(value)) {
             None => Ok(input),
             Some(found) => {
-                let times = if factor == DVec3::ONE { "" } else { " times its factor" };
+                let times = if factor == Spectrum::WHITE { "" } else { " times its factor" };
                 let message = format!("expected {}, found {found} in the texture `{}`{times}", R::WORDS, name.value.0);
                 Err(self.error(&name.place, message))
             }
@@ -296,7 +301,7 @@ impl<'a> Resolver<'a> {
         match written {
             Scalar::Constant(value) => Ok(ColorInput::grey(value.0)),
             Scalar::Texture(TextureReference { texture, channel, factor }) => {
-                let factor = DVec3::splat(factor.map_or(1.0, |factor| factor.0));
+                let factor = Spectrum::grey(factor.map_or(1.0, |factor| factor.0));
                 self.texture_in_range::<R>(texture, Some(channel.unwrap_or(Channel::R)), factor)
             }
         }

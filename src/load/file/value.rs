@@ -126,11 +126,7 @@ impl<const N: usize> Exactly<Number, N> {
 
 /// The numbers as a vector.
 pub fn vector(values: Vector) -> DVec3 {
-    triple(values.0)
-}
-
-pub fn triple<R>(values: [Checked<R>; 3]) -> DVec3 {
-    DVec3::from_array(values.map(|value| value.0))
+    DVec3::from_array(values.0.map(|value| value.0))
 }
 
 /// A list of so many values. Serde's arrays leave out what is too much.

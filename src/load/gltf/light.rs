@@ -10,6 +10,7 @@ use crate::load::file::colour::Rgb;
 use crate::load::file::light::{LightEntry, directional, point, spot};
 use crate::load::file::value::{Checked, Exactly};
 use crate::load::import::world_direction;
+use crate::spectrum::Spectrum;
 
 const NAME: &str = "KHR_lights_punctual";
 
@@ -39,7 +40,8 @@ impl Importer<'_> {
         let direction = world_direction(&map, DVec3::NEG_Z).ok_or("its transform leaves no direction")?;
         let place = self.place(&key);
         let position = Exactly::of(map.translation.to_array())?;
-        let (direction, strength) = (place.at(Exactly::of(direction.to_array())?), Rgb::of(colour)?);
+        let (direction, strength) =
+            (place.at(Exactly::of(direction.to_array())?), Rgb::of(Spectrum::from_rgb(colour.to_array()))?);
         let entry = match light.r#type.as_str() {
             "point" => {
                 LightEntry::Point(point::Keys { position, intensity: strength, keyframes: None, interpolation: None, node: None })

@@ -17,6 +17,7 @@ use crate::load::file::value::{Checked, Fraction, Located, Number, Rule};
 use crate::load::import::Input;
 use crate::load::place::Place;
 use crate::scene::Channel;
+use crate::spectrum::Spectrum;
 
 /// Index of refraction where nothing is said, and the largest that scene files have.
 const IOR: f64 = 1.5;
@@ -364,7 +365,7 @@ impl Surface<'_, '_> {
         }
         if distance.is_finite() && distance > 0.0 && colour != DVec3::ONE {
             let place = self.place();
-            keys.attenuation_color = Some(place.at(Rgb::<Fraction>::of(colour)?));
+            keys.attenuation_color = Some(place.at(Rgb::<Fraction>::of(Spectrum::from_rgb(colour.to_array()))?));
             keys.attenuation_distance = Some(place.at(Checked::of(distance)?));
         }
         Ok(())

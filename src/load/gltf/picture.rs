@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use glam::DVec3;
-
 use super::buffers::{file_of, read_uri};
 use super::importer::Importer;
 use super::json::{Image, Texture};
@@ -16,6 +14,7 @@ use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, Textu
 use crate::load::file::value::{Exactly, Number};
 use crate::load::files::MOST_MODEL_BYTES;
 use crate::load::image_file::{EmbeddedFile, inverted_alpha, one_texel};
+use crate::spectrum::Spectrum;
 
 const REPEAT: u64 = 10_497;
 const CLAMP: u64 = 33_071;
@@ -75,7 +74,7 @@ impl Importer<'_> {
         let stand_in = stand_in(role);
         let at = self.place(&place);
         let (file, fallback, wanted) = match found {
-            Ok((file, wanted)) => (file, Some(Rgb::of(DVec3::from(stand_in))?), wanted),
+            Ok((file, wanted)) => (file, Some(Rgb::of(Spectrum::from_rgb(stand_in))?), wanted),
             Err(reason) => {
                 self.approximate("picture that cannot be read", &place, &format!("the colour {stand_in:?}: {reason}"));
                 self.scene.substitutes.push(format!("{place}: {reason}; the colour {stand_in:?} stands for it"));

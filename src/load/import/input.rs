@@ -6,6 +6,7 @@ use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::reference::TextureName;
 use crate::load::file::value::Rule;
 use crate::load::place::Place;
+use crate::spectrum::Spectrum;
 
 /// A parameter: a constant or the name of a texture.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,8 +34,8 @@ impl Input {
     /// A sentence about a number that `R` does not accept.
     pub fn colour<R: Rule>(&self, place: &Place) -> Result<Colour<R>, String> {
         match self {
-            Self::Constant(colour) => Colour::constant(*colour),
-            Self::Texture(name, factor) => Colour::of_texture(place.at(TextureName(name.clone())), *factor),
+            Self::Constant(colour) => Colour::constant(spectrum(*colour)),
+            Self::Texture(name, factor) => Colour::of_texture(place.at(TextureName(name.clone())), spectrum(*factor)),
         }
     }
 
@@ -52,4 +53,8 @@ impl Input {
             Self::Texture(name, factor) => Scalar::of_texture(place.at(TextureName(name.clone())), None, number(*factor)?),
         }
     }
+}
+
+fn spectrum(colour: DVec3) -> Spectrum {
+    Spectrum::from_rgb(colour.to_array())
 }

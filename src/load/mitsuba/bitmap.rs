@@ -113,7 +113,7 @@ impl Converter<'_> {
         let Input::Texture(name, factor) = input else { return input.constant().unwrap_or(DVec3::ONE) };
         let image = match self.scene.file.texture.iter().find(|entry| entry.name() == name) {
             Some(TextureEntry::Image(image)) => image,
-            Some(TextureEntry::Checker(checker)) => return *factor * 0.5 * (checker.a.0 + checker.b.0),
+            Some(TextureEntry::Checker(checker)) => return *factor * 0.5 * DVec3::from(((checker.a.0) + (checker.b.0)).to_rgb()),
             _ => return *factor,
         };
         let source = match &image.file.value {

@@ -15,6 +15,7 @@ use crate::load::file::syntax::TextureEntry;
 use crate::load::file::value::{Checked, Exactly, Located, NonNegative, Number, Vector};
 use crate::load::image_file::Pictures;
 use crate::load::import::{Input, world_direction};
+use crate::spectrum::Spectrum;
 
 impl Converter<'_> {
     pub fn emitter(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
@@ -246,7 +247,7 @@ fn vector(plugin: &Plugin, value: DVec3) -> Result<Vector, SceneError> {
 }
 
 fn rgb(plugin: &Plugin, colour: DVec3) -> Result<Rgb<NonNegative>, SceneError> {
-    plugin.possible(Rgb::of(colour))
+    plugin.possible(Rgb::of(Spectrum::from_rgb(colour.to_array())))
 }
 
 fn sun(plugin: &Plugin, direction: DVec3, irradiance: DVec3) -> Result<LightEntry, SceneError> {

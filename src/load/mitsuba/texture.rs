@@ -201,8 +201,8 @@ impl Converter<'_> {
         let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)? * before;
         let mut entry = TextureEntry::Checker(CheckerEntry {
             name: plugin.at().at(String::new()),
-            a: plugin.possible(Rgb::of(colours[0]))?,
-            b: plugin.possible(Rgb::of(colours[1]))?,
+            a: plugin.possible(Rgb::of(crate::spectrum::Spectrum::from_rgb(colours[0].to_array())))?,
+            b: plugin.possible(Rgb::of(crate::spectrum::Spectrum::from_rgb(colours[1].to_array())))?,
             scale: None,
             rotation: None,
             offset: None,

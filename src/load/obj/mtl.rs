@@ -4,8 +4,6 @@ use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
-use glam::DVec3;
-
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_LIBRARY_BYTES};
@@ -16,6 +14,7 @@ use crate::load::spelling::lines::{Statements, before_spaced_comment, first_word
 use crate::load::spelling::names::{canonical, unquoted};
 use crate::load::spelling::numbers::{integer, number};
 use crate::math::xyz_to_rec709;
+use crate::spectrum::Spectrum;
 
 /// All MTL files of one model.
 #[derive(Default)]
@@ -312,7 +311,7 @@ fn value(mends: &mut Mends, line: usize, statement: &str, [least, most]: [f64; 2
 }
 
 /// The colour after a key: one number, three, or three of CIE XYZ after `xyz`. None where none can be read.
-fn colour(mends: &mut Mends, line: usize, statement: &str) -> Option<DVec3> {
+fn colour(mends: &mut Mends, line: usize, statement: &str) -> Option<Spectrum> {
     let (_, rest) = first_word(without_comment(statement));
     let (word, after) = first_word(rest);
     if word.eq_ignore_ascii_case("spectral") {
@@ -323,16 +322,16 @@ fn colour(mends: &mut Mends, line: usize, statement: &str) -> Option<DVec3> {
     let rest = if is_xyz || word.eq_ignore_ascii_case("rgb") { after } else { rest };
     let numbers = numbers(mends, line, statement, rest);
     let colour = match numbers.as_deref() {
-        Some([grey]) => DVec3::splat(*grey),
+        Some([grey]) => Spectrum::grey(*grey),
         Some([r, g]) => {
             mends.add("a colour of two numbers has its second one for blue too", line, statement);
-            DVec3::new(*r, *g, *g)
+            Spectrum::new(*r, *g, *g)
         }
         Some([r, g, b, more @ ..]) => {
             if !more.is_empty() {
                 mends.add("what follows three numbers of a colour is left out", line, statement);
             }
-            DVec3::new(*r, *g, *b)
+            Spectrum::new(*r, *g, *b)
         }
         _ => {
             mends.add("a colour that cannot be read is as if it were not there", line, statement);
@@ -340,16 +339,16 @@ fn colour(mends: &mut Mends, line: usize, statement: &str) -> Option<DVec3> {
         }
     };
     if is_xyz {
-        let linear = xyz_to_rec709(colour);
-        if linear.min_element() < -1e-3 {
+        let linear = xyz_to_rec709(colour.to_vector());
+        if linear.min_component() < -1e-3 {
             mends.add("a colour outside of Rec.709 loses what is below 0", line, statement);
         }
-        return Some(linear.max(DVec3::ZERO));
+        return Some(linear.max(Spectrum::BLACK));
     }
-    if colour.min_element() < 0.0 {
+    if colour.min_component() < 0.0 {
         mends.add("0 stands for colours below", line, statement);
     }
-    Some(colour.max(DVec3::ZERO))
+    Some(colour.max(Spectrum::BLACK))
 }
 
 /// All numbers of a statement. None where a word is none.
@@ -396,8 +395,8 @@ mod tests {
              bump -bm 2 h.png",
         );
         assert!(told.is_empty(), "{told:?}");
-        assert_eq!(material.colour("Kd"), Some(DVec3::new(0.5, 0.0, 0.0)));
-        assert_eq!(material.colour("Ks"), Some(DVec3::splat(0.5)));
+        assert_eq!(material.colour("Kd"), Some(Spectrum::new(0.5, 0.0, 0.0)));
+        assert_eq!(material.colour("Ks"), Some(Spectrum::grey(0.5)));
         assert_eq!((material.number("Ns"), material.number("Ni"), material.number("d")), (Some(1000.0), Some(1.5), Some(0.5)));
         assert_eq!(material.illumination, Some(2));
         assert_eq!(material.maps["map_Kd"].1, "a.png");
@@ -408,26 +407,26 @@ mod tests {
     fn keys_are_known_in_any_case() {
         let (material, told) = material("kd 1 0 0\nMAP_KD a.png\nMap_bump h.png\nNEWMTL b");
         assert!(told.is_empty(), "{told:?}");
-        assert_eq!(material.colour("Kd"), Some(DVec3::X));
+        assert_eq!(material.colour("Kd"), Some(Spectrum::new(1.0, 0.0, 0.0)));
         assert_eq!(material.maps.len(), 2);
     }
 
     #[test]
     fn one_odd_statement_is_mended_and_named() {
         let colour = |text: &str| material(text).0.colour("Kd");
-        let rows: [(&str, Option<DVec3>); 12] = [
-            ("Kd 0.5 0.25", Some(DVec3::new(0.5, 0.25, 0.25))),
+        let rows: [(&str, Option<Spectrum>); 12] = [
+            ("Kd 0.5 0.25", Some(Spectrum::new(0.5, 0.25, 0.25))),
             ("Kd", None),
             ("Kd nan", None),
             ("Kd 1 nan 0", None),
             ("Kd red", None),
             ("Kd 1e400", None),
             ("Kd spectral file.rfl 1", None),
-            ("Kd -1 0 1", Some(DVec3::Z)),
-            ("Kd 1 0 0 1", Some(DVec3::X)),
-            ("Kd 0,5 0,25 1", Some(DVec3::new(0.5, 0.25, 1.0))),
-            ("Kd 0.5, 0.25, 1", Some(DVec3::new(0.5, 0.25, 1.0))),
-            ("Kd 0.5f 0.25f 1.0f", Some(DVec3::new(0.5, 0.25, 1.0))),
+            ("Kd -1 0 1", Some(Spectrum::new(0.0, 0.0, 1.0))),
+            ("Kd 1 0 0 1", Some(Spectrum::new(1.0, 0.0, 0.0))),
+            ("Kd 0,5 0,25 1", Some(Spectrum::new(0.5, 0.25, 1.0))),
+            ("Kd 0.5, 0.25, 1", Some(Spectrum::new(0.5, 0.25, 1.0))),
+            ("Kd 0.5f 0.25f 1.0f", Some(Spectrum::new(0.5, 0.25, 1.0))),
         ];
         for (text, expected) in rows {
             assert_eq!(colour(text), expected, "{text}");
@@ -462,16 +461,19 @@ mod tests {
         // The white of Rec.709 is D65.
         let (white, told) = material("Kd xyz 0.9504559 1.0 1.0890577");
         assert!(told.is_empty(), "{told:?}");
-        assert!(white.colour("Kd").is_some_and(|colour| (colour - DVec3::ONE).abs().max_element() < 1e-4), "{white:?}");
+        assert!(
+            white.colour("Kd").is_some_and(|colour| (colour - Spectrum::WHITE).map(f64::abs).max_component() < 1e-4),
+            "{white:?}"
+        );
         let (green, told) = material("Kd xyz 0 1 0");
         assert_eq!(told.len(), 1);
-        assert!(green.colour("Kd").is_some_and(|colour| colour.x == 0.0 && colour.y > 1.8), "{green:?}");
+        assert!(green.colour("Kd").is_some_and(|colour| colour.r() == 0.0 && colour.g() > 1.8), "{green:?}");
     }
 
     #[test]
     fn the_first_of_two_materials_counts_and_what_stands_before_all_is_left_out() {
         let libraries = read("Kd 1 0 0\nnewmtl a\nKd 0 1 0\nnewmtl a\nKd 0 0 1\nnewmtl Material #25\nnewmtl b # the second\n");
-        assert_eq!(libraries.materials[0].colour("Kd"), Some(DVec3::Y));
+        assert_eq!(libraries.materials[0].colour("Kd"), Some(Spectrum::new(0.0, 1.0, 0.0)));
         assert_eq!(libraries.substitutes.len(), 2, "{:?}", libraries.substitutes);
         assert_eq!([" a", "Material #25", "b", "b # again", "\"a\""].map(|name| libraries.find(name)), [0, 1, 2, 2, 0].map(Some));
         assert_eq!(libraries.find("A"), None);
@@ -487,7 +489,7 @@ mod tests {
     fn comments_and_continued_lines() {
         let (material, told) = material("# a \\\nKd 1 0 \\\n0\nmap_Kd C:\\textures\\\nNs 3");
         assert!(told.is_empty(), "{told:?}");
-        assert_eq!(material.colour("Kd"), Some(DVec3::X));
+        assert_eq!(material.colour("Kd"), Some(Spectrum::new(1.0, 0.0, 0.0)));
         assert_eq!(material.number("Ns"), Some(3.0));
     }
 }

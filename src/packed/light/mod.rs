@@ -21,6 +21,7 @@ use crate::sampling::light_way::LightWay;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightCells, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, Scene};
+use crate::spectrum::Spectrum;
 use record::PORTAL_SHIFT;
 pub use record::{LightKind, PackedLight, PackedWarp, constants};
 use surface::{SurfaceEmission, surface_light};
@@ -119,7 +120,7 @@ pub fn collect(
             let light = &scene.lights[number];
             Some(PackedLight::delta(delta_kind(light)?, &light.delta()?, thrown_textures[number]))
         }
-        LightSource::Environment => Some(PackedLight::at(DVec3::ZERO, DVec3::ZERO).of_kind(LightKind::Environment)),
+        LightSource::Environment => Some(PackedLight::at(DVec3::ZERO, Spectrum::BLACK).of_kind(LightKind::Environment)),
         LightSource::Portal(number) => portal_light(&world.portals[number]),
     };
     let mut lights: Vec<PackedLight> = sources.iter().filter_map(packed).collect();
@@ -189,7 +190,7 @@ fn portal_light(portal: &WorldPrimitive) -> Option<PackedLight> {
         size: size as f32,
         p1: p1.as_vec3().to_array(),
         p2: p2.as_vec3().to_array(),
-        ..PackedLight::at(p0, DVec3::ZERO)
+        ..PackedLight::at(p0, Spectrum::BLACK)
     };
     Some(light.of_kind(LightKind::Portal))
 }

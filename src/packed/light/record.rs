@@ -9,6 +9,7 @@ use crate::sampling::solid_angle as strategy;
 use crate::scene::LightParameters;
 use crate::scene::light::light_table;
 use crate::shader::shared::{Constant, Constants, shared_constants};
+use crate::spectrum::Spectrum;
 
 /// Kinds below this are those of primitives: an emitting surface is a light of its kind.
 const SURFACE_KINDS: u32 = PrimitiveKind::ALL.len() as u32;
@@ -149,7 +150,7 @@ impl PackedWarp {
 
 impl PackedLight {
     /// A light that is no surface, of no kind yet and with no probability.
-    pub(super) fn at(position: DVec3, radiance: DVec3) -> Self {
+    pub(super) fn at(position: DVec3, radiance: Spectrum) -> Self {
         Self {
             kind_and_flags: 0,
             alias_threshold: u32::MAX,
@@ -161,7 +162,7 @@ impl PackedLight {
             trail: 0,
             p2: [0.0; 3],
             attributes: NONE,
-            radiance: radiance.as_vec3().to_array(),
+            radiance: radiance.to_f32(),
             material: NONE,
         }
     }

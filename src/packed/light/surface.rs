@@ -2,13 +2,12 @@
 
 use std::f64::consts::PI;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::record::{
     LIGHT_BY_SOLID_ANGLE, LIGHT_MOVES, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES, LIGHT_WARPED, PackedLight, PackedWarp,
 };
 use crate::emission_map::{EmissionMaps, LampPart};
-use crate::math::luminance;
 use crate::packed::attributes::TriangleAttributes;
 use crate::packed::material::{color_and_texture, mean_emission};
 use crate::packed::primitive::WorldPrimitive;
@@ -16,12 +15,13 @@ use crate::packed::shape::PrimitiveKind;
 use crate::sampling::solid_angle::is_rectangle;
 use crate::scene::texture::{mean_of_channel, mean_of_texture};
 use crate::scene::{ChannelInput, ColorInput, LightSampling, Scene};
+use crate::spectrum::Spectrum;
 use crate::texture::Coordinates;
 
 /// Emission of the surfaces with some material.
 pub struct SurfaceEmission {
     material: usize,
-    mean_radiance: DVec3,
+    mean_radiance: Spectrum,
     /// The material, or some part of it, emits from its back too.
     two_sided: bool,
     /// The radiance of a blend changes with its weights, that of a texture over the surface: the whole material is looked up.
@@ -50,7 +50,7 @@ impl SurfaceEmission {
     /// Luminous power: π·A·L, twice that for two sides. `attributes` are those of the primitive, for either set of texture coordinates.
     pub fn power(&self, primitive: &WorldPrimitive, maps: &EmissionMaps, attributes: [Option<&TriangleAttributes>; 2]) -> f64 {
         let of_part = lamp_part(primitive, attributes).and_then(|part| maps.luminance(self.material, &part));
-        let luminance = of_part.unwrap_or(luminance(self.mean_radiance));
+        let luminance = of_part.unwrap_or(self.mean_radiance.luminance());
         // An infinite plane that does not emit has no power: 0, not 0·∞.
         if luminance == 0.0 {
             return 0.0;
@@ -59,7 +59,7 @@ impl SurfaceEmission {
     }
 }
 
-fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
+fn mean_color(scene: &Scene, input: &ColorInput) -> Spectrum {
     let mean = |texture: usize| mean_of_texture(&scene.textures, texture);
     match input {
         ColorInput::Constant(color) => *color,
@@ -108,7 +108,7 @@ pub fn surface_light(
         | flag(primitive.moves(), LIGHT_MOVES)
         | flag(warp.is_some(), LIGHT_WARPED)
         | flag(is_reversed, LIGHT_REVERSED);
-    let plain = PackedLight::at(p0, DVec3::from(radiance.map(f64::from)));
+    let plain = PackedLight::at(p0, Spectrum::from_f32(radiance));
     Some(PackedLight {
         kind_and_flags: primitive.kind() as u32 | flags,
         size: size as f32,

@@ -1,11 +1,9 @@
 //! The weight of a blend's first material.
 
-use glam::DVec3;
-
 use super::fresnel::{dielectric_reflectance, normal_incidence_reflectance, schlick_reflectance};
 use super::lookup::Lookup;
-use crate::math::luminance;
 use crate::scene::BlendWeight;
+use crate::spectrum::Spectrum;
 use crate::texture;
 
 /// w0 in [0, 1] at one hit. Nested weights are evaluated from the inside out, as plain numbers.
@@ -17,12 +15,12 @@ pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {
         // Both sides are seen as from outside.
         BlendWeight::Fresnel { ior, exact: true } => 1.0 - dielectric_reflectance(cosine, ior),
         BlendWeight::Fresnel { ior, exact: false } => {
-            1.0 - schlick_reflectance(cosine, DVec3::splat(normal_incidence_reflectance(ior))).x
+            1.0 - schlick_reflectance(cosine, Spectrum::grey(normal_incidence_reflectance(ior))).r()
         }
         BlendWeight::Front => f64::from(u8::from(lookup.front)),
         BlendWeight::Camera => f64::from(u8::from(lookup.by_camera)),
         BlendWeight::Texture { texture } => {
-            luminance(texture::look_up(&lookup.scene.textures, texture, lookup.uv)).clamp(0.0, 1.0)
+            texture::look_up(&lookup.scene.textures, texture, lookup.uv).luminance().clamp(0.0, 1.0)
         }
         BlendWeight::Channel { texture, channel, factor } => {
             (factor * texture::look_up_channel(&lookup.scene.textures, texture, channel, lookup.uv)).clamp(0.0, 1.0)

@@ -8,6 +8,7 @@ use super::microfacet::Facets;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::scene::{ConductorFresnel, MaterialKind};
+use crate::spectrum::Spectrum;
 
 /// Mirrors in all directions of the microfacets: f = F·D·G2/(4·cosθo·cosθi) (Walter et al. 2007). What is reflected from one
 /// microfacet to another is lost.
@@ -17,12 +18,12 @@ pub struct Conductor {
     /// Smooth ones are a perfect mirror.
     pub facets: Facets,
     /// Factor of what is reflected.
-    pub tint: DVec3,
+    pub tint: Spectrum,
 }
 
 impl Conductor {
     /// Reflectance of a microfacet at an angle of the given cosine with its normal.
-    fn reflectance(&self, cosine: f64) -> DVec3 {
+    fn reflectance(&self, cosine: f64) -> Spectrum {
         self.tint * self.fresnel.at(cosine)
     }
 }
@@ -31,13 +32,13 @@ impl Conductor {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fresnel {
     /// Complex index of refraction.
-    Complex { eta: DVec3, k: DVec3 },
+    Complex { eta: Spectrum, k: Spectrum },
     /// Reflectance at normal incidence.
-    Schlick(DVec3),
+    Schlick(Spectrum),
 }
 
 impl Fresnel {
-    pub fn at(&self, cosine: f64) -> DVec3 {
+    pub fn at(&self, cosine: f64) -> Spectrum {
         match *self {
             Self::Complex { eta, k } => conductor_reflectance(cosine, eta, k),
             Self::Schlick(normal_incidence) => schlick_reflectance(cosine, normal_incidence),
@@ -56,7 +57,7 @@ impl Scatter for Conductor {
     }
 
     fn sampling_weight(&self) -> f64 {
-        self.reflectance(1.0).max_element()
+        self.reflectance(1.0).max_component()
     }
 
     fn is_delta(&self) -> bool {

@@ -1,20 +1,19 @@
 //! The boundary of a dielectric: what smooth and rough glass share.
 
-use glam::DVec3;
-
 use super::fresnel::{dielectric_reflectance, refract};
 use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density};
 use super::view::View;
 use crate::scene::ColorInput;
+use crate::spectrum::Spectrum;
 
 /// A dielectric's boundary, smooth or not, and how it is tinted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dielectric {
     /// Index of refraction inside over outside.
     pub ior: f64,
-    pub reflectance: DVec3,
-    pub transmittance: DVec3,
+    pub reflectance: Spectrum,
+    pub transmittance: Spectrum,
 }
 
 /// How light divides at a dielectric boundary.
@@ -33,7 +32,7 @@ impl Dielectric {
 
     /// The larger of what it reflects and what it transmits.
     pub fn sampling_weight(&self) -> f64 {
-        self.reflectance.max(self.transmittance).max_element()
+        self.reflectance.max(self.transmittance).max_component()
     }
 
     /// Index of refraction on the far side over that on wo's side.
@@ -55,8 +54,8 @@ impl Dielectric {
     }
 
     fn split_by(&self, fresnel: f64) -> Option<Split> {
-        let reflected = fresnel * self.reflectance.max_element();
-        let transmitted = (1.0 - fresnel) * self.transmittance.max_element();
+        let reflected = fresnel * self.reflectance.max_component();
+        let transmitted = (1.0 - fresnel) * self.transmittance.max_component();
         let sum = reflected + transmitted;
         (sum > 0.0).then(|| Split { fresnel, choose_reflection: reflected / sum })
     }

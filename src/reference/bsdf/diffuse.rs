@@ -9,11 +9,12 @@ use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::scene::{HemisphereSampling, MaterialKind};
+use crate::spectrum::Spectrum;
 
 /// f = ρ/π.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Diffuse {
-    pub reflectance: DVec3,
+    pub reflectance: Spectrum,
 }
 
 impl Scatter for Diffuse {
@@ -23,7 +24,7 @@ impl Scatter for Diffuse {
     }
 
     fn sampling_weight(&self) -> f64 {
-        self.reflectance.max_element()
+        self.reflectance.max_component()
     }
 
     fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {

@@ -8,11 +8,12 @@ use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::reference::warp;
 use crate::scene::MaterialKind;
+use crate::spectrum::Spectrum;
 
 /// f = ρ (n+2)/(2π) cosⁿα, α the angle with the mirror direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Glossy {
-    pub reflectance: DVec3,
+    pub reflectance: Spectrum,
     /// Not negative.
     pub exponent: f64,
 }
@@ -24,7 +25,7 @@ impl Scatter for Glossy {
     }
 
     fn sampling_weight(&self) -> f64 {
-        self.reflectance.max_element()
+        self.reflectance.max_component()
     }
 
     fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {

@@ -1,10 +1,9 @@
 //! Parameters of materials at one hit.
 
-use glam::DVec3;
-
 use super::view::View;
 use crate::reference::intersect::Surface;
 use crate::scene::{ColorInput, Scene};
+use crate::spectrum::Spectrum;
 use crate::texture::{self, Coordinates};
 
 /// The place where a material's parameters and weights are looked up.
@@ -31,13 +30,13 @@ impl<'a> Lookup<'a> {
         }
     }
 
-    pub(super) fn color(&self, input: &ColorInput) -> DVec3 {
+    pub(super) fn color(&self, input: &ColorInput) -> Spectrum {
         texture::evaluate(self.scene, input, self.uv)
     }
 
     /// A scalar is the first channel of its colour.
     pub(super) fn scalar(&self, input: &ColorInput) -> f64 {
-        self.color(input).x
+        self.color(input).r()
     }
 
     /// The exponent of a power of a cosine.

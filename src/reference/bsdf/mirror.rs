@@ -6,10 +6,11 @@ use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::scene::MaterialKind;
+use crate::spectrum::Spectrum;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mirror {
-    pub reflectance: DVec3,
+    pub reflectance: Spectrum,
 }
 
 impl Scatter for Mirror {
@@ -19,7 +20,7 @@ impl Scatter for Mirror {
     }
 
     fn sampling_weight(&self) -> f64 {
-        self.reflectance.max_element()
+        self.reflectance.max_component()
     }
 
     fn is_delta(&self) -> bool {

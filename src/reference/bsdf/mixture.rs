@@ -12,6 +12,7 @@ use crate::reference::intersect::{Surface, UvSet};
 use crate::reference::work;
 use crate::sampling::sampler::LARGEST_NUMBER;
 use crate::scene::{BlendMode, Material, MaterialId, Scene};
+use crate::spectrum::Spectrum;
 
 /// The scattering at one hit: the lobes of all materials that the surface blends, parameters looked up, seen from one direction.
 ///
@@ -165,7 +166,7 @@ impl Bsdf {
 /// is a Lambert surface.
 #[derive(Default)]
 struct Collected {
-    diffuse: Option<DVec3>,
+    diffuse: Option<Spectrum>,
     others: Lobes,
 }
 
@@ -173,7 +174,7 @@ impl Collected {
     fn push(&mut self, lobe: Lobe, weight: f64) {
         match lobe {
             Lobe::Diffuse(Diffuse { reflectance }) => {
-                let sum = self.diffuse.get_or_insert(DVec3::ZERO);
+                let sum = self.diffuse.get_or_insert(Spectrum::BLACK);
                 *sum += reflectance * weight;
             }
             _ => self.others.push(lobe, weight),

@@ -6,6 +6,7 @@ use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::scene::MaterialKind;
+use crate::spectrum::Spectrum;
 
 /// The ray goes on as if nothing were there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +31,6 @@ impl Scatter for Null {
 
     fn sample(&self, view: &View, _u_lobe: f64, _u1: f64, _u2: f64) -> Option<BsdfSample> {
         let sample = BsdfSample { is_null: true, ..BsdfSample::reflected(-view.wo, Density::Delta) };
-        Some(BsdfSample { weight: DVec3::ONE, ..sample })
+        Some(BsdfSample { weight: Spectrum::WHITE, ..sample })
     }
 }

@@ -11,12 +11,13 @@ use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::reference::warp;
 use crate::scene::MaterialKind;
+use crate::spectrum::Spectrum;
 
 /// f = kd/π + ks (n+2)/(2π) cosⁿα, α the angle with the mirror direction (Lafortune and Willems 1994).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phong {
-    pub diffuse: DVec3,
-    pub specular: DVec3,
+    pub diffuse: Spectrum,
+    pub specular: Spectrum,
     /// Not negative.
     pub exponent: f64,
 }
@@ -24,7 +25,7 @@ pub struct Phong {
 impl Phong {
     /// Probability of sampling the specular lobe: Σks / (Σkd + Σks).
     fn specular_share(&self) -> f64 {
-        let (diffuse, specular) = (self.diffuse.element_sum(), self.specular.element_sum());
+        let (diffuse, specular) = (self.diffuse.sum(), self.specular.sum());
         specular / (diffuse + specular)
     }
 }
@@ -36,7 +37,7 @@ impl Scatter for Phong {
     }
 
     fn sampling_weight(&self) -> f64 {
-        (self.diffuse + self.specular).max_element()
+        (self.diffuse + self.specular).max_component()
     }
 
     fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {

@@ -10,6 +10,7 @@ use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::scene::MaterialKind;
+use crate::spectrum::Spectrum;
 
 /// A diffuse base of reflectance ρ below a boundary of index of refraction η. What the boundary lets in, 1 − F(θi), is reflected by the
 /// base, and goes up and down until it gets out: of light from within the boundary sends the share R back. So
@@ -19,9 +20,9 @@ use crate::scene::MaterialKind;
 /// as Mitsuba's model has it. Above the base the boundary reflects as glass does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Base {
-    pub reflectance: DVec3,
+    pub reflectance: Spectrum,
     /// Factor of what the boundary reflects.
-    pub specular: DVec3,
+    pub specular: Spectrum,
     pub ior: f64,
     /// R
     pub internal_reflectance: f64,
@@ -44,20 +45,20 @@ impl Base {
     /// About what is reflected seen along the normal.
     pub fn sampling_weight(&self) -> f64 {
         let reflected = normal_incidence_reflectance(self.ior);
-        (self.specular * reflected + self.reflectance * (1.0 - reflected)).max_element()
+        (self.specular * reflected + self.reflectance * (1.0 - reflected)).max_component()
     }
 
     /// f of the base, given what the boundary lets through at either angle.
-    pub fn value(&self, transmitted_o: f64, transmitted_i: f64) -> DVec3 {
+    pub fn value(&self, transmitted_o: f64, transmitted_i: f64) -> Spectrum {
         let kept =
-            if self.nonlinear { self.reflectance * self.internal_reflectance } else { DVec3::splat(self.internal_reflectance) };
-        self.reflectance / (DVec3::ONE - kept) * (FRAC_1_PI * transmitted_o * transmitted_i / (self.ior * self.ior))
+            if self.nonlinear { self.reflectance * self.internal_reflectance } else { Spectrum::grey(self.internal_reflectance) };
+        self.reflectance / (Spectrum::WHITE - kept) * (FRAC_1_PI * transmitted_o * transmitted_i / (self.ior * self.ior))
     }
 
     /// Probability of sampling the boundary's reflection, which reflects the share `reflected` of light towards wo.
     pub fn choose_specular(&self, reflected: f64) -> f64 {
-        let specular = reflected * self.specular.element_sum();
-        let diffuse = (1.0 - reflected) * self.reflectance.element_sum();
+        let specular = reflected * self.specular.sum();
+        let diffuse = (1.0 - reflected) * self.reflectance.sum();
         if specular + diffuse > 0.0 { specular / (specular + diffuse) } else { 0.0 }
     }
 }

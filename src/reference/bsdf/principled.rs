@@ -17,6 +17,7 @@ use crate::reference::intersect::{NormalTexel, UvSet};
 use crate::scene::material::principled::{COAT_REFLECTANCE, LEAST_REFLECTED, MOST_REFLECTED, SHEEN_WEIGHT};
 use crate::scene::material::{AlbedoTable, DELTA_ALPHA, SMALLEST_BEND, SMALLEST_SHEEN_ROUGHNESS};
 use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};
+use crate::spectrum::Spectrum;
 
 /// With h the half vector, s = (1 − |wo·h|)⁵, D and G those of GGX, and M = D·G/(4·cosθo·cosθi):
 ///
@@ -34,11 +35,11 @@ use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};
 /// θo, F0 what is reflected along the normal (Turquin 2019): light that one microfacet sends to another then leaves as what is reflected once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Principled {
-    pub base: DVec3,
+    pub base: Spectrum,
     pub metallic: f64,
     pub ior: f64,
     pub specular: f64,
-    pub specular_color: DVec3,
+    pub specular_color: Spectrum,
     pub transmission: f64,
     pub thin: bool,
     pub coat: f64,
@@ -69,7 +70,7 @@ struct Shares {
 /// Light at a facet.
 struct Split {
     /// Reflected.
-    reflected: DVec3,
+    reflected: Spectrum,
     /// Share that goes on to the dielectric's base.
     passed: f64,
 }
@@ -91,14 +92,14 @@ impl Principled {
         // On the side of air. None: total reflection.
         let outside = if eta < 1.0 { 1.0 - (1.0 - cosine * cosine) / (eta * eta) } else { cosine * cosine };
         if outside <= 0.0 && eta < 1.0 {
-            return Split { reflected: DVec3::ONE, passed: 0.0 };
+            return Split { reflected: Spectrum::WHITE, passed: 0.0 };
         }
         let outside = outside.max(0.0).sqrt().min(1.0);
-        let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(DVec3::ONE);
+        let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(Spectrum::WHITE);
         let dielectric = schlick_reflectance(outside, normal_incidence) * self.specular;
         let metal = schlick_reflectance(cosine.min(1.0), self.base);
         let reflected = metal * self.metallic + dielectric * (1.0 - self.metallic);
-        Split { reflected, passed: (1.0 - self.metallic) * (1.0 - dielectric.max_element()) }
+        Split { reflected, passed: (1.0 - self.metallic) * (1.0 - dielectric.max_component()) }
     }
 
     /// The ratio of indices that reflection is judged by: 1 where no light comes from within.
@@ -113,7 +114,7 @@ impl Principled {
 
     /// The coat lies on the outside.
     fn coat_reflectance(&self, view: &View, cosine: f64) -> f64 {
-        if self.is_within(view) { 0.0 } else { self.coat * schlick_reflectance(cosine, DVec3::splat(COAT_REFLECTANCE)).x }
+        if self.is_within(view) { 0.0 } else { self.coat * schlick_reflectance(cosine, Spectrum::grey(COAT_REFLECTANCE)).r() }
     }
 
     /// Share of light that fibres leave to what lies below.
@@ -122,15 +123,15 @@ impl Principled {
     }
 
     /// By how much more is reflected for what microfacets send to each other; nothing where light comes from within or goes there.
-    fn compensation(&self, view: &View, cosine: f64) -> DVec3 {
+    fn compensation(&self, view: &View, cosine: f64) -> Spectrum {
         if !self.compensates || self.eta_of_reflection(view) != 1.0 {
-            return DVec3::ONE;
+            return Spectrum::WHITE;
         }
         let alpha = self.facets.alpha.min_element();
         let once = AlbedoTable::of_facets(self.facets.masking).at(cosine, alpha.sqrt());
-        let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(DVec3::ONE);
+        let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(Spectrum::WHITE);
         let reflected = self.base * self.metallic + normal_incidence * (self.specular * (1.0 - self.metallic));
-        DVec3::ONE + reflected * ((1.0 - once) / once)
+        Spectrum::WHITE + reflected * ((1.0 - once) / once)
     }
 
     fn shares(&self, view: &View) -> Shares {
@@ -142,8 +143,8 @@ impl Principled {
         let possible = if eta < 1.0 { 1.0 } else { self.metallic.max((1.0 - self.metallic) * self.specular) };
         // The fibres stand on the outside, and are sampled as the diffuse base is.
         let taken = if self.is_within(view) { 0.0 } else { self.sheen.taken(cosine) };
-        let reflection = reflected.max_element().max(LEAST_REFLECTED * possible) * (1.0 - taken);
-        let base = passed.max((1.0 - self.metallic) * (1.0 - MOST_REFLECTED)) * self.base.max_element() * (1.0 - taken);
+        let reflection = reflected.max_component().max(LEAST_REFLECTED * possible) * (1.0 - taken);
+        let base = passed.max((1.0 - self.metallic) * (1.0 - MOST_REFLECTED)) * self.base.max_component() * (1.0 - taken);
         let [diffuse, transmission] = [base * (1.0 - self.transmission) + taken, base * self.transmission];
         let sum = coat + (1.0 - coat) * (reflection + diffuse + transmission);
         let of = |share: f64| if sum > 0.0 { share / sum } else { 0.0 };
@@ -198,7 +199,7 @@ impl Principled {
         }
         let (wo, local) = (shares.coat_frame.to_local(view.wo), shares.coat_frame.to_local(wi));
         let (shadowed, density) = Self::mirror_terms(&self.coat_facets, wo, local, (wo + local).normalize());
-        Evaluation { value: DVec3::splat((1.0 - shares.below_coat) * shadowed), pdf: shares.coat * density }
+        Evaluation { value: Spectrum::grey((1.0 - shares.below_coat) * shadowed), pdf: shares.coat * density }
     }
 
     fn evaluate_transmission(&self, view: &View, wi: DVec3, shares: &Shares) -> Option<Evaluation> {
@@ -285,13 +286,13 @@ impl Scatter for Principled {
             }
         }
         let coat_texel = written.coat_normal_map.map(|map| NormalTexel {
-            texel: lookup.color(&ColorInput::Texture(map.texture)),
+            texel: lookup.color(&ColorInput::Texture(map.texture)).to_vector(),
             scale: map.scale,
             set: UvSet::of_directions(&lookup.scene.textures[map.texture]),
         });
         let turned = written.anisotropy_rotation_degrees.to_radians();
         let direction = written.anisotropy_direction.and_then(|map| {
-            let texel = lookup.color(&ColorInput::Texture(map)).truncate();
+            let texel = lookup.color(&ColorInput::Texture(map)).to_vector().truncate();
             (texel * 2.0 - 1.0).try_normalize()
         });
         Some(Self {
@@ -319,11 +320,11 @@ impl Scatter for Principled {
     fn sampling_weight(&self) -> f64 {
         let Split { reflected, passed } = self.split(1.0, 1.0);
         let coat = 0.04 * self.coat;
-        coat + (1.0 - coat) * (reflected + self.base * passed).max_element() + SHEEN_WEIGHT * self.sheen.color.max_element()
+        coat + (1.0 - coat) * (reflected + self.base * passed).max_component() + SHEEN_WEIGHT * self.sheen.color.max_component()
     }
 
     fn is_delta(&self) -> bool {
-        let diffuse = (1.0 - self.metallic) * (1.0 - self.transmission) * self.base.max_element();
+        let diffuse = (1.0 - self.metallic) * (1.0 - self.transmission) * self.base.max_component();
         self.facets.are_smooth() && diffuse == 0.0 && self.sheen.is_none() && (self.coat == 0.0 || self.coat_facets.are_smooth())
     }
 
@@ -352,7 +353,7 @@ impl Scatter for Principled {
         let wi = if is_coat {
             let frame = &shares.coat_frame;
             if self.coat_facets.are_smooth() {
-                let (wi, weight) = (view.mirrored_about(frame.normal), DVec3::splat((1.0 - shares.below_coat) / shares.coat));
+                let (wi, weight) = (view.mirrored_about(frame.normal), Spectrum::grey((1.0 - shares.below_coat) / shares.coat));
                 let is_possible = Self::coat_reflects(view, wi, &shares);
                 return is_possible.then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
             }

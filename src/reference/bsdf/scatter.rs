@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::lookup::Lookup;
 use super::view::View;
 use crate::scene::MaterialKind;
+use crate::spectrum::Spectrum;
 
 /// One way to scatter light, its parameters looked up for one hit.
 pub trait Scatter: Sized {
@@ -44,7 +45,7 @@ pub enum Density {
 pub struct BsdfSample {
     pub wi: DVec3,
     /// f·|cosθi| / density.
-    pub weight: DVec3,
+    pub weight: Spectrum,
     pub density: Density,
     /// Index of refraction on wi's side over that on wo's side: 1 for a reflection. Radiance is scaled by 1/eta² when light
     /// crosses, which is part of `weight`.
@@ -56,14 +57,14 @@ pub struct BsdfSample {
 impl BsdfSample {
     /// A direction on wo's side; the weight is still to be filled in.
     pub(super) fn reflected(wi: DVec3, density: Density) -> Self {
-        Self { wi, weight: DVec3::ZERO, density, eta: 1.0, is_null: false }
+        Self { wi, weight: Spectrum::BLACK, density, eta: 1.0, is_null: false }
     }
 }
 
 /// f·|cosθi| and density of one pair of directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Evaluation {
-    pub value: DVec3,
+    pub value: Spectrum,
     /// Per steradian.
     pub pdf: f64,
 }

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::Integrator;
-use crate::math::luminance;
 use crate::reference::camera::ProjectiveCamera;
 use crate::reference::intersect::{Outline, Owner, PathTime, Ray, World};
 use crate::reference::lights::Lights;
@@ -13,6 +12,7 @@ use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::{Guide, LightCells, LitPoint};
 use crate::scene::{ColorInput, Emission, Emitters, LightChoice, Media, RenderSettings, Scene};
+use crate::spectrum::Spectrum;
 
 impl Integrator {
     /// Takes positions relative to the scene's [center](Scene::center). Fails on what the reference cannot
@@ -27,7 +27,7 @@ impl Integrator {
         let instances_move = scene.instances.iter().any(|instances| instances.motion.is_some());
         let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
         let hides = scene.render.emitters == Emitters::Hidden;
-        let is_bright = |emission: &Emission| emission.radiance != ColorInput::Constant(DVec3::ZERO);
+        let is_bright = |emission: &Emission| emission.radiance != ColorInput::Constant(Spectrum::BLACK);
         let hidden = scene.materials_that(|material| hides && material.emission.as_ref().is_some_and(is_bright));
         let media = Media::of(scene);
         Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, media, guide: None })
@@ -129,7 +129,7 @@ impl Integrator {
             return [0.0; 2];
         }
         let unstopped = self.unstopped(Ray { origin: from.point, direction: sample.wi }, &sample, &time);
-        let free = luminance(sample.radiance) * cosine / sample.pdf;
+        let free = sample.radiance.luminance() * cosine / sample.pdf;
         [free, free * unstopped]
     }
 

@@ -123,7 +123,7 @@ impl NormalMaps {
         let Some(tangents) = tangents(UvSet::of_directions(&self.textures[texture])) else { return normal };
         let bent = match self.textures[texture].relief {
             Relief::Normals(scale) => {
-                let texel = texture::look_up(&self.textures, texture, uv);
+                let texel = texture::look_up(&self.textures, texture, uv).to_vector();
                 tangents.direction(normal, texel, scale)
             }
             Relief::Heights(scale) => {

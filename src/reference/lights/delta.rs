@@ -4,6 +4,8 @@ use std::fmt::Debug;
 
 use glam::DVec3;
 
+use crate::spectrum::Spectrum;
+
 /// Such a light.
 pub trait DeltaLight: Debug + Send + Sync {
     /// Light that arrives at a point. None where none does.
@@ -18,12 +20,12 @@ pub struct Arriving {
     /// Length of the segment that must be free.
     pub distance: f64,
     /// Irradiance on a surface that faces it.
-    pub irradiance: DVec3,
+    pub irradiance: Spectrum,
 }
 
 impl Arriving {
     /// From a position, where the light has this intensity along a direction; None at the position itself.
-    pub fn from_position(position: DVec3, point: DVec3, intensity: impl Fn(DVec3) -> DVec3) -> Option<Self> {
+    pub fn from_position(position: DVec3, point: DVec3, intensity: impl Fn(DVec3) -> Spectrum) -> Option<Self> {
         let to_light = position - point;
         let squared = to_light.length_squared();
         let distance = squared.sqrt();

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::outside::{Environment, EnvironmentSample, Outside};
 use crate::sampling::MapDistribution;
 use crate::scene::{self, EnvironmentRadiance, ImageData, MapRows};
+use crate::spectrum::Spectrum;
 
 pub fn new(light: &scene::Environment) -> Outside {
     match &light.radiance {
@@ -18,7 +19,7 @@ pub fn new(light: &scene::Environment) -> Outside {
                 Outside::Varying(Arc::new(Map { image: image.clone(), distribution, rotation, rows: light.rows }))
             }
             // A black picture.
-            None => Outside::Constant(DVec3::ZERO),
+            None => Outside::Constant(Spectrum::BLACK),
         },
     }
 }
@@ -40,7 +41,7 @@ impl Map {
         (u, wi.x.hypot(wi.z).atan2(wi.y) / PI)
     }
 
-    fn lookup(&self, u: f64, v: f64) -> DVec3 {
+    fn lookup(&self, u: f64, v: f64) -> Spectrum {
         let image = &*self.image;
         let (scale, offset) = self.rows.scale_and_offset(image.height);
         let (x, y) = (u * f64::from(image.width) - 0.5, v * scale + offset);
@@ -48,7 +49,7 @@ impl Map {
         let texel = |column: f64, row: f64| {
             let column = (column as i64).rem_euclid(i64::from(image.width)) as usize;
             let row = (row as i64).clamp(0, i64::from(image.height) - 1) as usize;
-            image.texels.color(row * image.width as usize + column).as_dvec3()
+            Spectrum::from_f32(image.texels.color(row * image.width as usize + column).to_array())
         };
         let row = |row: f64| texel(left, row).lerp(texel(left + 1.0, row), x - left);
         row(top).lerp(row(top + 1.0), y - top)
@@ -56,7 +57,7 @@ impl Map {
 }
 
 impl Environment for Map {
-    fn radiance(&self, wi: DVec3) -> DVec3 {
+    fn radiance(&self, wi: DVec3) -> Spectrum {
         let (u, v) = self.coordinates(wi);
         self.lookup(u, v)
     }

@@ -7,9 +7,9 @@ use glam::{DVec3, Vec3};
 
 use super::{Outside, outside_light};
 use crate::compare::sidak;
-use crate::math::luminance;
 use crate::reference::warp;
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, Light, MapRows, Sky};
+use crate::spectrum::Spectrum;
 use crate::statistics::chi_squared_test;
 use crate::statistics::random::SplitMix64;
 
@@ -28,7 +28,7 @@ fn map_of([width, height]: [u32; 2], rotation: f64, rows: MapRows, texel: impl F
 }
 
 fn sky(zenith: f64, horizon: f64, ground: f64) -> Outside {
-    let [zenith, horizon, ground] = [zenith, horizon, ground].map(DVec3::splat);
+    let [zenith, horizon, ground] = [zenith, horizon, ground].map(Spectrum::grey);
     of_light(Light::Sky(Sky { zenith, horizon, ground }))
 }
 
@@ -38,7 +38,7 @@ fn dotted(width: u32, height: u32, x: u32, y: u32) -> Outside {
 
 fn environments() -> Vec<(&'static str, Outside)> {
     let noise = |x: u32, y: u32| Vec3::new((x * 37 % 11) as f32, (y * 17 % 5) as f32 + 0.1, ((x + y) * 7 % 13) as f32);
-    let radiance = EnvironmentRadiance::Constant(DVec3::ONE);
+    let radiance = EnvironmentRadiance::Constant(Spectrum::WHITE);
     let constant =
         of_light(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside, mirrored: false }));
     vec![
@@ -114,7 +114,7 @@ fn directions_follow_their_densities() {
             // A direction at a cell's very border may count as its neighbour's: rare.
             let close = |a: f64, b: f64| (a - b).abs() <= 1e-6 * a.abs().max(b.abs()) + 1e-12;
             assert!(close(pdf, drawn.pdf), "{name}: {pdf} and {}", drawn.pdf);
-            assert!(close(luminance(radiance), luminance(drawn.radiance)), "{name}: {radiance} and {}", drawn.radiance);
+            assert!(close(radiance.luminance(), drawn.radiance.luminance()), "{name}: {radiance} and {}", drawn.radiance);
         }
     }
 }
@@ -125,7 +125,7 @@ fn wherever_light_comes_from_a_direction_can_be_drawn() {
         for i in 0..20_000 {
             let (u1, u2) = (f64::from(i) / 20_000.0, f64::from(i * 7919 % 20_000) / 20_000.0);
             let wi = warp::uniform_sphere(u1, u2);
-            assert!(luminance(environment.radiance(wi)) == 0.0 || environment.pdf(wi) > 0.0, "{name}: {wi}");
+            assert!(environment.radiance(wi).luminance() == 0.0 || environment.pdf(wi) > 0.0, "{name}: {wi}");
         }
     }
 }
@@ -141,21 +141,21 @@ fn maps_lie_where_the_contract_says() {
     };
     for (x, y) in (0..8).flat_map(|x| (0..4).map(move |y| (f64::from(x), f64::from(y)))) {
         let found = at(&columns, (x + 0.5) / 8.0, (y + 0.5) / 4.0);
-        assert!((found - DVec3::new(x, y, 0.0)).length() < 1e-9, "{x} {y}: {found}");
+        assert!(found.distance(Spectrum::new(x, y, 0.0)) < 1e-9, "{x} {y}: {found}");
     }
-    assert_eq!(columns.radiance(DVec3::Y).y, 0.0);
-    assert_eq!(columns.radiance(-DVec3::Y).y, 3.0);
+    assert_eq!(columns.radiance(DVec3::Y).g(), 0.0);
+    assert_eq!(columns.radiance(-DVec3::Y).g(), 3.0);
     // A rotation by 90 degrees shows along −z what is otherwise seen along +x.
     let turned = map(8, 4, 90.0, |x, y| Vec3::new(x as f32, y as f32, 0.0));
-    assert!((turned.radiance(-DVec3::Z) - columns.radiance(DVec3::X)).length() < 1e-9);
-    assert!((turned.radiance(DVec3::Z) - columns.radiance(DVec3::X)).length() > 1.0);
+    assert!(turned.radiance(-DVec3::Z).distance(columns.radiance(DVec3::X)) < 1e-9);
+    assert!(turned.radiance(DVec3::Z).distance(columns.radiance(DVec3::X)) > 1.0);
 }
 
 #[test]
 fn a_constant_map_is_a_constant_environment() {
     let constant = map(5, 3, 40.0, |_, _| Vec3::new(1.0, 2.0, 0.5));
     for wi in [DVec3::X, DVec3::Y, -DVec3::Y, DVec3::new(0.6, -0.64, 0.48)] {
-        assert!((constant.radiance(wi) - DVec3::new(1.0, 2.0, 0.5)).length() < 1e-9);
+        assert!(constant.radiance(wi).distance(Spectrum::new(1.0, 2.0, 0.5)) < 1e-9);
     }
     assert!(map(4, 4, 0.0, |_, _| Vec3::ZERO).is_constant());
 }
@@ -166,7 +166,7 @@ fn rows_lie_within_or_reach_the_poles() {
     let map = |rows| map_of([3, 5], 0.0, rows, |_, row| Vec3::splat(row as f32));
     let at = |outside: &Outside, v: f64| {
         let (sine, cosine) = (PI * v).sin_cos();
-        outside.radiance(DVec3::new(sine, cosine, 0.0)).x
+        outside.radiance(DVec3::new(sine, cosine, 0.0)).r()
     };
     let (inside, to_poles) = (map(MapRows::Inside), map(MapRows::ToPoles));
     for v in [0.0, 0.05, 0.2, 0.5, 0.77, 1.0] {

@@ -32,6 +32,7 @@ use crate::sampling::sampler::uniform;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Light, LightSampling, MaterialId, MaterialKind, Scene};
+use crate::spectrum::Spectrum;
 use delta::DeltaLight;
 pub use outside::Outside;
 
@@ -109,7 +110,7 @@ pub struct LightSample {
     /// Length of the segment that must be free.
     pub distance: f64,
     /// Radiance; for a point light, intensity over squared distance.
-    pub radiance: DVec3,
+    pub radiance: Spectrum,
     /// Probability of the light times density of the direction per steradian; for a point light, the probability alone.
     pub pdf: f64,
     /// The direction was the only one the light has.
@@ -321,8 +322,8 @@ impl Lights {
         let reference = from.point;
         let (u1, u2) = (uniform(u), uniform(v));
         let sampled = &self.lights[light];
-        let sample = |wi, distance, radiance, pdf, target| {
-            (radiance != DVec3::ZERO).then_some(LightSample {
+        let sample = |wi, distance, radiance: Spectrum, pdf, target| {
+            (!radiance.is_black()).then_some(LightSample {
                 light,
                 wi,
                 distance,

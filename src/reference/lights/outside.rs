@@ -5,22 +5,22 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::math::luminance;
 use crate::reference::warp;
 use crate::sampling::sampler::uniform;
+use crate::spectrum::Spectrum;
 
 /// Everything outside the scene.
 #[derive(Debug, Clone)]
 pub enum Outside {
     /// Equal radiance from everywhere; black where there is no environment.
-    Constant(DVec3),
+    Constant(Spectrum),
     Varying(Arc<dyn Environment>),
 }
 
 /// Radiance that differs from direction to direction.
 pub trait Environment: Debug + Send + Sync {
     /// Radiance that arrives against a direction of length 1.
-    fn radiance(&self, wi: DVec3) -> DVec3;
+    fn radiance(&self, wi: DVec3) -> Spectrum;
 
     /// Draws a direction by 32 bits each. None where no light comes from there.
     fn sample(&self, bits_u: u32, bits_v: u32) -> Option<EnvironmentSample>;
@@ -36,7 +36,7 @@ pub trait Environment: Debug + Send + Sync {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnvironmentSample {
     pub wi: DVec3,
-    pub radiance: DVec3,
+    pub radiance: Spectrum,
     /// Per steradian.
     pub pdf: f64,
 }
@@ -44,7 +44,7 @@ pub struct EnvironmentSample {
 impl Outside {
     /// Constant ones add up; one that varies stands alone.
     pub fn of(parts: impl Iterator<Item = Self>) -> Self {
-        let mut constant = DVec3::ZERO;
+        let mut constant = Spectrum::BLACK;
         for part in parts {
             match part {
                 Self::Constant(radiance) => constant += radiance,
@@ -55,7 +55,7 @@ impl Outside {
     }
 
     /// Radiance that arrives against a direction of length 1.
-    pub fn radiance(&self, wi: DVec3) -> DVec3 {
+    pub fn radiance(&self, wi: DVec3) -> Spectrum {
         match self {
             Self::Constant(radiance) => *radiance,
             Self::Varying(environment) => environment.radiance(wi),
@@ -84,7 +84,7 @@ impl Outside {
     /// Luminance averaged over all directions.
     pub fn mean_luminance(&self) -> f64 {
         match self {
-            Self::Constant(radiance) => luminance(*radiance),
+            Self::Constant(radiance) => radiance.luminance(),
             Self::Varying(environment) => environment.mean_luminance(),
         }
     }

@@ -6,16 +6,16 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::outside::{Environment, EnvironmentSample, Outside};
-use crate::math::luminance;
 use crate::sampling::sampler::uniform;
 use crate::scene::Sky;
+use crate::spectrum::Spectrum;
 
 pub fn new(sky: &Sky) -> Outside {
     Outside::Varying(Arc::new(*sky))
 }
 
 impl Environment for Sky {
-    fn radiance(&self, wi: DVec3) -> DVec3 {
+    fn radiance(&self, wi: DVec3) -> Spectrum {
         if wi.y >= 0.0 { self.horizon.lerp(self.zenith, wi.y) } else { self.ground }
     }
 
@@ -25,7 +25,7 @@ impl Environment for Sky {
         let [upper, lower] = halves(self);
         let share = upper / (upper + lower);
         let height = if u1 < share {
-            let (h, z) = (luminance(self.horizon), luminance(self.zenith));
+            let (h, z) = (self.horizon.luminance(), self.zenith.luminance());
             let xi = u1 / share;
             // The root of h·y + (z − h)·y²/2 = ξ·(h + z)/2 that does not cancel; a black horizon has ξ = 0 only where nothing comes
             // from.
@@ -38,12 +38,12 @@ impl Environment for Sky {
         let (sin_phi, cos_phi) = (TAU * u2).sin_cos();
         let wi = DVec3::new(sine * cos_phi, height, sine * sin_phi);
         let radiance = if u1 < share { self.horizon.lerp(self.zenith, height) } else { self.ground };
-        let pdf = luminance(radiance) / (upper + lower);
+        let pdf = radiance.luminance() / (upper + lower);
         (pdf > 0.0).then_some(EnvironmentSample { wi, radiance, pdf })
     }
 
     fn pdf(&self, wi: DVec3) -> f64 {
-        luminance(self.radiance(wi)) / integral(self)
+        self.radiance(wi).luminance() / integral(self)
     }
 
     fn mean_luminance(&self) -> f64 {
@@ -53,7 +53,7 @@ impl Environment for Sky {
 
 /// Integral of luminance over the upper and the lower half.
 fn halves(sky: &Sky) -> [f64; 2] {
-    [PI * (luminance(sky.zenith) + luminance(sky.horizon)), TAU * luminance(sky.ground)]
+    [PI * (sky.zenith.luminance() + sky.horizon.luminance()), TAU * sky.ground.luminance()]
 }
 
 fn integral(sky: &Sky) -> f64 {

@@ -5,12 +5,13 @@ use glam::DVec3;
 use super::delta::{Arriving, DeltaLight};
 use super::thrown_picture::Picture;
 use crate::scene::{FalloffCurve, Scene, SpotLight};
+use crate::spectrum::Spectrum;
 
 #[derive(Debug)]
 pub struct Spot {
     position: DVec3,
     axis: DVec3,
-    intensity: DVec3,
+    intensity: Spectrum,
     /// Angles at which there is no light and at which there is all, in radians.
     angles: [f64; 2],
     curve: FalloffCurve,
@@ -37,7 +38,7 @@ impl DeltaLight for Spot {
             let falloff = falloff(direction.dot(self.axis), self.angles, self.curve);
             let picture = self.picture.as_ref().filter(|_| falloff > 0.0);
             let color = picture.and_then(|picture| picture.coordinates(direction).map(|uv| picture.color(uv)));
-            self.intensity * falloff * color.unwrap_or(DVec3::ONE)
+            self.intensity * falloff * color.unwrap_or(Spectrum::WHITE)
         })
     }
 }

@@ -6,7 +6,6 @@ use super::*;
 use crate::compare::sidak;
 use crate::effort::in_full;
 use crate::load::file::delta_light_examples;
-use crate::math::luminance;
 use crate::reference::warp;
 use crate::scene::light::LightStrength;
 use crate::scene::{
@@ -14,6 +13,7 @@ use crate::scene::{
     ImageTexture, Material, MaterialKind, Mesh, PointLight, Rectangle, Shape, Sky, Sphere, SpotLight, Texture, TextureFilter,
     TextureKind, TextureWrap, Transform,
 };
+use crate::spectrum::Spectrum;
 use crate::statistics::random::SplitMix64;
 use crate::statistics::{SphereBins, chi_squared_test, density_by_differences, test_directional_sampler};
 
@@ -38,7 +38,7 @@ fn glowing(shapes: Vec<Geometry>) -> (Scene, World) {
     let scene = Scene {
         materials: vec![material],
         shapes: shapes.into_iter().map(shape).collect(),
-        lights: vec![Light::Point(PointLight { position: DVec3::new(0.0, 5.0, 0.0), intensity: DVec3::splat(3.0) })],
+        lights: vec![Light::Point(PointLight { position: DVec3::new(0.0, 5.0, 0.0), intensity: Spectrum::grey(3.0) })],
         ..Scene::default()
     };
     let world = World::new(&scene).expect("the scene is sound");
@@ -208,7 +208,7 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
         scene.materials[0] =
             Material { name: "gone".into(), kind: MaterialKind::Pass, normal_map: None, emission: None, two_sided: true };
         scene.shapes.iter_mut().for_each(|shape| shape.portal = true);
-        let (zenith, horizon, ground) = (DVec3::ONE, DVec3::splat(0.5), DVec3::splat(0.2));
+        let (zenith, horizon, ground) = (Spectrum::WHITE, Spectrum::grey(0.5), Spectrum::grey(0.2));
         scene.lights = vec![Light::Sky(Sky { zenith, horizon, ground })];
         scene.render.estimator = estimator;
         let world = World::new(&scene).expect("the scene is sound");
@@ -273,7 +273,8 @@ fn points_of_pictures_follow_their_density() {
             let surface = world.surface(&ray, &hit, &time);
             let stated = lights.pdf((&world, &time), reference, &surface);
             assert!((drawn.pdf / stated - 1.0).abs() < 1e-6, "{} and {stated}", drawn.pdf);
-            assert!((drawn.radiance - emitted(&scene, &surface, -drawn.wi)).length() < 1e-6 * drawn.radiance.length());
+            let off = drawn.radiance.distance(emitted(&scene, &surface, -drawn.wi));
+            assert!(off < 1e-6 * drawn.radiance.to_vector().length());
             let cell = [surface.uv.x * 5.0, surface.uv.y * 4.0].map(|at| at as usize);
             counts[cell[1] * 5 + cell[0]] += 1;
             if number < 500 {
@@ -304,7 +305,7 @@ fn points_of_pictures_follow_their_density() {
 fn delta_lights_are_as_strong_as_what_arrives_from_them() {
     for (name, light) in delta_light_examples() {
         let (light, parameters) = delta_light(&Scene::default(), &light).zip(light.delta()).expect("it is a delta light");
-        let arriving = |point: DVec3| light.arriving(point).map_or(0.0, |arriving| luminance(arriving.irradiance));
+        let arriving = |point: DVec3| light.arriving(point).map_or(0.0, |arriving| arriving.irradiance.luminance());
         let (found, expected) = match parameters.strength {
             LightStrength::Irradiance(irradiance) => (arriving(DVec3::ZERO), irradiance),
             LightStrength::Power(power) => {
@@ -334,7 +335,7 @@ fn lights_are_chosen_by_power_and_evenly() {
         assert!((pmf - expected).abs() < 1e-12, "{:?}", lights.table.pmf);
     }
     // An environment is chosen half of the time, and only where BSDF sampling leaves it to light sampling.
-    let radiance = EnvironmentRadiance::Constant(DVec3::ONE);
+    let radiance = EnvironmentRadiance::Constant(Spectrum::WHITE);
     scene.lights.insert(
         0,
         Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default(), mirrored: false }),
@@ -369,7 +370,7 @@ fn the_back_of_a_one_sided_light_is_dark() {
 fn lights_at_infinity_share_half_of_the_choices() {
     let (mut scene, world) = glowing(vec![]);
     let (position, direction) = (DVec3::Y, -DVec3::Y);
-    let intensity = DVec3::splat(3.0);
+    let intensity = Spectrum::grey(3.0);
     scene.lights.push(Light::Spot(SpotLight {
         position,
         direction,
@@ -379,8 +380,8 @@ fn lights_at_infinity_share_half_of_the_choices() {
         curve: Default::default(),
         picture: None,
     }));
-    scene.lights.push(Light::Directional(DirectionalLight { direction, irradiance: DVec3::splat(PI) }));
-    let [zenith, horizon, ground] = [DVec3::ONE; 3];
+    scene.lights.push(Light::Directional(DirectionalLight { direction, irradiance: Spectrum::grey(PI) }));
+    let [zenith, horizon, ground] = [Spectrum::WHITE; 3];
     scene.lights.push(Light::Sky(Sky { zenith, horizon, ground }));
     let pmf = Lights::new(&scene, &world).table.pmf;
     // The cone of 60 degrees is a quarter of all directions: by power 0.4 and 0.1, evenly 0.25 each.

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::scene::{Scene, Texture, TextureId};
+use crate::spectrum::Spectrum;
 use crate::texture;
 
 /// A texture on the plane at distance 1 before a light, over a rectangle about the light's axis.
@@ -30,7 +31,7 @@ impl Picture {
         (cosine > 0.0).then(|| DVec2::splat(0.5) + across / self.half_extent)
     }
 
-    pub fn color(&self, uv: DVec2) -> DVec3 {
-        self.texture.as_ref().map_or(DVec3::ONE, |one| texture::look_up(std::slice::from_ref(one), 0, uv))
+    pub fn color(&self, uv: DVec2) -> Spectrum {
+        self.texture.as_ref().map_or(Spectrum::WHITE, |one| texture::look_up(std::slice::from_ref(one), 0, uv))
     }
 }

@@ -6,6 +6,7 @@ use super::*;
 use crate::compare::sidak;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::scene::{Light, LightParameters, PointLight, SpotLight};
+use crate::spectrum::Spectrum;
 use crate::statistics::chi_squared_test;
 
 fn number(key: u32, dimension: u32) -> f64 {
@@ -29,7 +30,7 @@ fn emitters(count: u32) -> Vec<Emitter> {
             1 => Emitter::surface([at, at + DVec3::new(0.3, 0.0, 0.3)], Some(DVec3::NEG_Y), index % 8 == 1, power),
             2 => Emitter::surface([at - 0.1, at + 0.1], Some(direction(index + 9999)), index % 8 == 2, power),
             _ => {
-                let [intensity, direction] = [DVec3::splat(power), direction(index + 777)];
+                let (intensity, direction) = (Spectrum::grey(power), direction(index + 777));
                 let (falloff_degrees, angle_degrees) = [(0.0, 90.0), (30.0, 30.0), (170.0, 180.0)][index as usize % 3];
                 let spot = SpotLight {
                     position: at,
@@ -140,7 +141,7 @@ fn near_strong_lights_that_face_a_point_come_first() {
 #[test]
 fn trails_fit_whatever_the_lights() {
     let point_light = |position: DVec3| {
-        let light = PointLight { position, intensity: DVec3::ONE };
+        let light = PointLight { position, intensity: Spectrum::WHITE };
         Emitter::delta(&parameters(Light::Point(light))).expect("it is inside the scene")
     };
     for emitters in [

@@ -2,6 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::spectrum::Spectrum;
+
 /// How a quantity goes from one key to the next.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Interpolation {
@@ -98,6 +100,20 @@ impl Quantity for f64 {
         let start = before.map_or(0.0, |before| speed([slope(before, a), own], [width(before, a), width(a, b)]));
         let end = after.map_or(0.0, |after| speed([own, slope(b, after)], [width(a, b), width(b, after)]));
         hermite([a.value, b.value], [start, end], width(a, b), share)
+    }
+}
+
+impl Quantity for Spectrum {
+    fn between(a: Self, b: Self, share: f64) -> Self {
+        a + (b - a) * share
+    }
+
+    fn smoothly_between(before: Option<Key<Self>>, a: Key<Self>, b: Key<Self>, after: Option<Key<Self>>, share: f64) -> Self {
+        let channel = |channel: usize| {
+            let of = |key: Key<Self>| Key { frame: key.frame, value: key.value.to_rgb()[channel] };
+            f64::smoothly_between(before.map(of), of(a), of(b), after.map(of), share)
+        };
+        Self::new(channel(0), channel(1), channel(2))
     }
 }
 

@@ -6,6 +6,7 @@ use super::curve::{Curve, Moment, Turn};
 use crate::scene::camera::{Camera, Projection};
 use crate::scene::light_at::LightAt;
 use crate::scene::transform::Transform;
+use crate::spectrum::Spectrum;
 
 /// A transform in parts, each with keys of its own: first scaled, then turned, then moved. A part without keys does nothing.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -77,7 +78,7 @@ pub struct LightTrack {
     /// The direction, of length 1 at the keys and made so in between.
     pub direction: Curve<DVec3>,
     /// Intensity, irradiance or radiance.
-    pub strength: Curve<DVec3>,
+    pub strength: Curve<Spectrum>,
     /// The rotation of an environment, in degrees.
     pub rotation: Curve<f64>,
     /// The node that takes it along.
@@ -99,9 +100,9 @@ impl LightTrack {
 
     /// The frames of all its keys.
     pub fn frames(&self) -> impl Iterator<Item = f64> {
-        let vectors = [&self.position, &self.direction, &self.strength];
-        let vectors = vectors.into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
-        vectors.chain(self.rotation.keys.iter().map(|key| key.frame))
+        let vectors = [&self.position, &self.direction].into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
+        let strengths = self.strength.keys.iter().map(|key| key.frame);
+        vectors.chain(strengths).chain(self.rotation.keys.iter().map(|key| key.frame))
     }
 }
 

@@ -8,6 +8,7 @@ use crate::scene::check::{Check, is_amount, within_range};
 use crate::scene::image::ImageData;
 use crate::scene::light_at::LightAt;
 use crate::scene::texture::TextureId;
+use crate::spectrum::Spectrum;
 
 /// The questions of a scene to a light, whatever its kind.
 pub trait SceneLight {
@@ -64,7 +65,7 @@ pub trait DeltaLight {
 pub struct LightParameters {
     pub strength: LightStrength,
     /// Radiant intensity, or the irradiance of a light at infinity.
-    pub color: DVec3,
+    pub color: Spectrum,
     /// Nothing of a light at infinity.
     pub position: DVec3,
     /// The direction that it shines in, and the angles from there, in radians, up to which it is full and at which it ends. None: it
@@ -81,12 +82,12 @@ pub struct LightParameters {
 impl LightParameters {
     /// The parameters of a light that is the only form of its kind, shines in all directions and has nothing
     /// else to read.
-    pub fn new(strength: LightStrength, color: DVec3, position: DVec3) -> Self {
+    pub fn new(strength: LightStrength, color: Spectrum, position: DVec3) -> Self {
         Self { strength, color, position, cone: None, vectors: [DVec3::ZERO; 2], number: 0.0, form: 0 }
     }
 }
 
-pub fn amounts(lights: &[DVec3]) -> Check {
+pub fn amounts(lights: &[Spectrum]) -> Check {
     let possible = lights.iter().copied().all(is_amount);
     if possible { Ok(()) } else { Err("its light must be finite and not negative".to_owned()) }
 }

@@ -5,10 +5,11 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::model::{DeltaLight, LightParameters, LightStrength, SceneLight, amounts, placed, stands};
-use crate::math::{Frame, luminance};
+use crate::math::Frame;
 use crate::scene::check::{Check, is_direction};
 use crate::scene::light_at::LightAt;
 use crate::scene::texture::TextureId;
+use crate::spectrum::Spectrum;
 
 /// A point light cut to a cone: full `intensity` inside `falloff_degrees` of the axis, none past `angle_degrees`, between them as its curve
 /// says.
@@ -16,7 +17,7 @@ use crate::scene::texture::TextureId;
 pub struct SpotLight {
     pub position: DVec3,
     pub direction: DVec3,
-    pub intensity: DVec3,
+    pub intensity: Spectrum,
     pub angle_degrees: f64,
     pub falloff_degrees: f64,
     pub curve: FalloffCurve,
@@ -128,7 +129,7 @@ impl DeltaLight for SpotLight {
             vectors: [self.direction, DVec3::new(limits[0], limits[1], cosine)],
             number: sine,
             form,
-            ..LightParameters::new(LightStrength::Power(power * luminance(self.intensity)), self.intensity, self.position)
+            ..LightParameters::new(LightStrength::Power(power * self.intensity.luminance()), self.intensity, self.position)
         }
     }
 }
@@ -141,7 +142,7 @@ pub struct Projector {
     pub direction: DVec3,
     /// The direction of the picture's upper edge, projected across the light's direction.
     pub up: DVec3,
-    pub irradiance: DVec3,
+    pub irradiance: Spectrum,
     /// The angle of the whole picture.
     pub vertical_fov_degrees: f64,
     /// Width of the picture over its height.
@@ -191,7 +192,7 @@ impl DeltaLight for Projector {
     fn parameters(&self) -> LightParameters {
         let [half_width, half_height] = self.half_extent();
         let [cosine, sine] = picture_turn(self.direction, self.up);
-        let power = 4.0 * half_width * half_height * luminance(self.irradiance);
+        let power = 4.0 * half_width * half_height * self.irradiance.luminance();
         LightParameters {
             cone: Some((self.direction, [half_width.hypot(half_height).atan(); 2])),
             vectors: [self.direction, DVec3::new(0.5 / half_width, 0.5 / half_height, cosine)],

@@ -1,7 +1,5 @@
 //! The types of materials, and the lobes that they scatter by.
 
-use glam::DVec3;
-
 use super::blend_weight::BlendWeight;
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
 use super::parameters::{self, ParameterType, place};
@@ -9,6 +7,7 @@ use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
 use super::principled::Principled;
 use super::table::{LobeKind, MaterialId, material_table};
 use crate::scene::texture::ColorInput;
+use crate::spectrum::Spectrum;
 
 /// The material of a surface, with its parameters.
 #[derive(Debug, Clone)]
@@ -43,7 +42,7 @@ pub enum MaterialKind {
 #[derive(Debug, Clone)]
 pub enum ConductorFresnel {
     /// Complex index of refraction eta + ik, per RGB channel.
-    Complex { eta: DVec3, k: DVec3 },
+    Complex { eta: Spectrum, k: Spectrum },
     /// Schlick's approximation from the reflectance at normal incidence.
     Reflectance(ColorInput),
 }
@@ -247,7 +246,7 @@ impl Principled {
             coat: self.clearcoat,
             coat_roughness: self.clearcoat_roughness,
             anisotropy: self.anisotropy.unwrap_or(zero),
-            rotation: ColorInput::Constant(DVec3::new(turned.cos(), turned.sin(), 0.0)),
+            rotation: ColorInput::Constant(Spectrum::new(turned.cos(), turned.sin(), 0.0)),
             sheen_color: self.sheen_color,
             sheen_roughness: self.sheen_roughness,
             coat_texel: self.coat_normal_map.map_or(zero, |map| ColorInput::Texture(map.texture)),

@@ -1,6 +1,6 @@
 //! The material of glTF 2.0's Appendix B.
 
-use glam::DVec3;
+use crate::spectrum::Spectrum;
 
 use super::microfacets::Masking;
 use crate::scene::texture::{ColorInput, TextureId};
@@ -65,7 +65,7 @@ pub struct CoatNormalMap {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attenuation {
     /// Share of light that is left after the distance.
-    pub color: DVec3,
+    pub color: Spectrum,
     pub distance: f64,
 }
 
@@ -81,9 +81,9 @@ const SMALLEST_ATTENUATION_COLOR: f64 = 1e-6;
 
 impl Attenuation {
     /// Beer and Lambert's: light is left as exp(−extinction · distance).
-    pub fn extinction(&self) -> DVec3 {
-        let left = self.color.clamp(DVec3::splat(SMALLEST_ATTENUATION_COLOR), DVec3::ONE);
+    pub fn extinction(&self) -> Spectrum {
+        let left = self.color.clamp(Spectrum::grey(SMALLEST_ATTENUATION_COLOR), Spectrum::WHITE);
         // Not −0.
-        (left.map(f64::ln) / -self.distance).abs()
+        (left.map(f64::ln) / -self.distance).map(f64::abs)
     }
 }

@@ -10,6 +10,7 @@ use crate::scene::{
     Masking, Mesh, Microfacets, Motion, MotionStep, Plane, PointLight, Principled, Rectangle, Sphere, SpotLight, Texture,
     TextureFilter, TextureWrap, ThrownPicture, Transform, TransformStep,
 };
+use crate::spectrum::Spectrum;
 
 fn material(name: &str, kind: MaterialKind) -> Material {
     Material { name: name.into(), kind, normal_map: None, emission: None, two_sided: true }
@@ -56,7 +57,7 @@ fn scene() -> Scene {
     scene.film.size = [8, 4];
     let image =
         ImageTexture { image: pixels(2, 3), wrap: [TextureWrap::Repeat; 2], filter: TextureFilter::Bilinear, scale: [1.0; 2] };
-    let [a, b] = [DVec3::ZERO, DVec3::ONE];
+    let [a, b] = [Spectrum::BLACK, Spectrum::WHITE];
     for (name, kind) in [
         ("picture", TextureKind::Image(image)),
         ("checks", TextureKind::Checker { a, b, scale: [4.0; 2] }),
@@ -69,7 +70,7 @@ fn scene() -> Scene {
     let textured = MaterialKind::Diffuse { reflectance: ColorInput::Texture(0) };
     let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey, thin: false };
     let metal = MaterialKind::Conductor {
-        fresnel: ConductorFresnel::Complex { eta: DVec3::ONE, k: DVec3::ONE },
+        fresnel: ConductorFresnel::Complex { eta: Spectrum::WHITE, k: Spectrum::WHITE },
         facets: Microfacets::ggx(grey),
         specular_reflectance: grey,
     };
@@ -104,7 +105,7 @@ fn scene() -> Scene {
         scene.shapes.push(shape(label, geometry, material));
     }
     let spot = Light::Spot(SpotLight {
-        position: b,
+        position: DVec3::ONE,
         direction: DVec3::Y,
         intensity: b,
         angle_degrees: 30.0,
@@ -119,7 +120,7 @@ fn scene() -> Scene {
         mirrored: false,
     };
     scene.lights = vec![
-        Light::Point(PointLight { position: b, intensity: b }),
+        Light::Point(PointLight { position: DVec3::ONE, intensity: b }),
         spot,
         Light::Directional(DirectionalLight { direction: DVec3::X, irradiance: b }),
         Light::Environment(map),
@@ -184,11 +185,16 @@ fn each_mistake_is_named_with_its_part() {
             "texture `picture`: it has 5 texels and not 2 × 3",
         ),
         (
-            |s| s.textures[2].kind = TextureKind::Perlin { scale: 1.0, octaves: 17, a: DVec3::ZERO, b: DVec3::ONE, seed: 0 },
+            |s| {
+                s.textures[2].kind =
+                    TextureKind::Perlin { scale: 1.0, octaves: 17, a: Spectrum::BLACK, b: Spectrum::WHITE, seed: 0 }
+            },
             "texture `clouds`: 17 octaves",
         ),
         (
-            |s| s.textures[3].kind = TextureKind::Worley { scale: f64::INFINITY, a: DVec3::ZERO, b: DVec3::ONE, seed: 0 },
+            |s| {
+                s.textures[3].kind = TextureKind::Worley { scale: f64::INFINITY, a: Spectrum::BLACK, b: Spectrum::WHITE, seed: 0 }
+            },
             "texture `cells`: its colours and its scale must be finite",
         ),
         (|s| s.materials[0].normal_map = Some(4), "material `grey`: there is no texture 4"),
@@ -199,7 +205,7 @@ fn each_mistake_is_named_with_its_part() {
             "material `grey`: a colour, or a complex index of refraction, must be finite and not negative",
         ),
         (|s| emission(s, ColorInput::SquaredTexture(9)), "material `grey`: there is no texture 9"),
-        (|s| emission(s, ColorInput::ScaledTexture(0, DVec3::NAN)), "material `grey`: the factor of a texture"),
+        (|s| emission(s, ColorInput::ScaledTexture(0, Spectrum::grey(f64::NAN))), "material `grey`: the factor of a texture"),
         (
             |s| s.materials[1].kind = MaterialKind::Mirror { reflectance: ColorInput::Texture(usize::MAX) },
             "material `textured`: there is no texture",
@@ -213,7 +219,7 @@ fn each_mistake_is_named_with_its_part() {
         ),
         (
             |s| {
-                let fresnel = ConductorFresnel::Complex { eta: DVec3::NAN, k: DVec3::ONE };
+                let fresnel = ConductorFresnel::Complex { eta: Spectrum::grey(f64::NAN), k: Spectrum::WHITE };
                 s.materials[3].kind = MaterialKind::Conductor {
                     fresnel,
                     facets: Microfacets::ggx(ColorInput::grey(0.1)),
@@ -287,22 +293,22 @@ fn each_mistake_is_named_with_its_part() {
         ),
         (|s| s.camera.position = DVec3::Z * 1.1e18, "camera: it reaches farther than 1e18"),
         (
-            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::X * 1.1e18, intensity: DVec3::ONE }),
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::X * 1.1e18, intensity: Spectrum::WHITE }),
             "light[0]: it reaches farther than 1e18",
         ),
         (|s| s.shapes[5].portal = true, "plane: a plane cannot be a portal"),
         (|s| s.shapes[5].geometry = Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::ZERO }), "plane: its numbers"),
         (
-            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::ONE, intensity: DVec3::NEG_ONE }),
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::ONE, intensity: Spectrum::grey(-1.0) }),
             "light[0]: its light must be",
         ),
         (
-            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::NAN, intensity: DVec3::ONE }),
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::NAN, intensity: Spectrum::WHITE }),
             "light[0]: its position must be finite",
         ),
         (
             |s| {
-                let [position, intensity] = [DVec3::ZERO, DVec3::ONE];
+                let (position, intensity) = (DVec3::ZERO, Spectrum::WHITE);
                 s.lights[1] = Light::Spot(SpotLight {
                     position,
                     direction: DVec3::Y,
@@ -330,7 +336,7 @@ fn each_mistake_is_named_with_its_part() {
             "light[1]: its position must be",
         ),
         (
-            |s| s.lights[2] = Light::Directional(DirectionalLight { direction: DVec3::ONE, irradiance: DVec3::ONE }),
+            |s| s.lights[2] = Light::Directional(DirectionalLight { direction: DVec3::ONE, irradiance: Spectrum::WHITE }),
             "light[2]: its position must be",
         ),
         (
@@ -341,7 +347,7 @@ fn each_mistake_is_named_with_its_part() {
             "light[3]: it has 8 texels and not 3 × 2",
         ),
         (
-            |s| s.lights.push(environment(EnvironmentRadiance::Constant(DVec3::ONE))),
+            |s| s.lights.push(environment(EnvironmentRadiance::Constant(Spectrum::WHITE))),
             "environment: a map or a sky is the scene's only",
         ),
     ];

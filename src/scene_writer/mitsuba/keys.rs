@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
+use crate::spectrum::Spectrum;
 use glam::DVec3;
 use toml::{Table, Value};
 
@@ -90,6 +91,7 @@ pub fn vector(table: &impl Lookup, key: &str) -> Option<DVec3> {
 }
 
 /// Three numbers or one for grey; black where nothing is written.
-pub fn colour(table: &impl Lookup, key: &str) -> DVec3 {
-    vector(table, key).or(number(table, key).map(DVec3::splat)).unwrap_or_default()
+pub fn colour(table: &impl Lookup, key: &str) -> Spectrum {
+    let rgb = numbers(table, key).and_then(|numbers| numbers.try_into().ok()).map(Spectrum::from_rgb);
+    rgb.or(number(table, key).map(Spectrum::grey)).unwrap_or_default()
 }

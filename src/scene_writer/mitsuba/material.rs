@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-use glam::DVec3;
 use toml::{Table, Value};
 
 use super::Writer;
-use super::keys::{Keys, as_number, colour, entries, flag, number, numbers, table, text, vector};
+use super::keys::{Keys, as_number, colour, entries, flag, number, numbers, table, text};
 use super::xml::Element;
 use crate::load::SceneError;
+use crate::spectrum::Spectrum;
 
 /// Mitsuba's name of one of our presets.
 const PRESETS: [(&str, &str); 4] = [("gold", "Au"), ("copper", "Cu"), ("silver", "Ag"), ("aluminium", "Al")];
@@ -150,7 +150,7 @@ impl<'w> Writer<'w> {
                     .float("clearcoat", share("clearcoat", 0.0))
                     .float("eta", share("ior", 1.5).max(1.001))
             }
-            "emissive" => Element::new("bsdf", "diffuse").rgb("reflectance", DVec3::ZERO),
+            "emissive" => Element::new("bsdf", "diffuse").rgb("reflectance", Spectrum::BLACK),
             "pass" => Element::new("bsdf", "null"),
             "blend" => self.blend(material, place)?,
             other => {
@@ -281,7 +281,7 @@ impl<'w> Writer<'w> {
         Some(match value.as_table().and_then(|of| text(of, "texture")) {
             Some(texture) => match self.texture(texture, "radiance", false) {
                 Ok(texture) => emitter.with(texture),
-                Err(_) => emitter.rgb("radiance", DVec3::ONE),
+                Err(_) => emitter.rgb("radiance", Spectrum::WHITE),
             },
             None => emitter.rgb("radiance", colour(&material, key)),
         })
@@ -334,7 +334,6 @@ impl<'w> Writer<'w> {
                     .transform("to_uv", &steps)
             }
             "checker" => {
-                let colour_of = |key: &str| vector(&texture, key).unwrap_or_else(|| colour(&texture, key));
                 // Two squares along each unit there.
                 let steps = format!(
                     "{before}<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale x=\"0.5\" y=\"0.5\"/>"
@@ -343,8 +342,8 @@ impl<'w> Writer<'w> {
                 let (first, second) = if is_number { ("color1", "color0") } else { ("color0", "color1") };
                 Element::new("texture", "checkerboard")
                     .named(role)
-                    .rgb(first, colour_of("a"))
-                    .rgb(second, colour_of("b"))
+                    .rgb(first, colour(&texture, "a"))
+                    .rgb(second, colour(&texture, "b"))
                     .transform("to_uv", &steps)
             }
             other => {

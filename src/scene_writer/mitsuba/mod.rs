@@ -254,12 +254,12 @@ impl Writer<'_> {
         };
         // The picture's own.
         let _ = aspect;
-        if strength.min_element() != strength.max_element() {
+        if strength.min_component() != strength.max_component() {
             self.approximate("colour of a projector with a texture", place, "its mean multiplies the texture");
         }
         let upside_down = "<scale y=\"-1\"/><translate y=\"1\"/>";
         let texture = self.texture_behind(name, "irradiance", false, upside_down)?;
-        Ok(emitter.float("scale", strength.element_sum() / 3.0).with(texture))
+        Ok(emitter.float("scale", strength.mean()).with(texture))
     }
 
     fn environment(&mut self, light: &Keys<'_>, place: &str) -> Result<Element, SceneError> {

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use glam::{DAffine3, DVec3};
 
+use crate::spectrum::Spectrum;
+
 /// A scene in the making.
 #[derive(Debug, Default)]
 pub struct Xml(Vec<Element>);
@@ -72,8 +74,9 @@ impl Element {
         self.property("string", name, value)
     }
 
-    pub fn rgb(self, name: &str, value: DVec3) -> Self {
-        self.property("rgb", name, &triple(value))
+    pub fn rgb(self, name: &str, value: Spectrum) -> Self {
+        let [red, green, blue] = value.to_rgb();
+        self.property("rgb", name, &format!("{red}, {green}, {blue}"))
     }
 
     pub fn point(mut self, name: &str, DVec3 { x, y, z }: DVec3) -> Self {

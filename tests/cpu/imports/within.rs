@@ -1,6 +1,7 @@
 //! `[[import]]`: scenes of other programs within one of ours.
 
 use gpt::scene::{MaterialKind, Projection, Scene};
+use gpt::spectrum::Spectrum;
 
 use super::gltf::File;
 use super::{Folder, picture, refusal};
@@ -62,7 +63,7 @@ fn materials_take_the_place_of_others() {
         |theirs: &str| format!("{CAMERA}{LIGHT}{BLUE}[[import]]\nfile = \"a.glb\"\nmaterials = {{ {theirs} = \"blue\" }}\n");
     let scene = read(&text("red"));
     let MaterialKind::Diffuse { reflectance } = scene.materials[scene.shapes[0].material].kind else { panic!("no diffuse") };
-    assert_eq!(reflectance, gpt::scene::ColorInput::Constant(glam::DVec3::new(0.1, 0.2, 0.9)));
+    assert_eq!(reflectance, gpt::scene::ColorInput::Constant(Spectrum::new(0.1, 0.2, 0.9)));
     let message = refusal(folder(&text("rod")).load("scene.toml"));
     assert!(message.contains("no material named `rod`"), "{message}");
     let message = refusal(folder(&text("red").replace("\"blue\" }", "\"absent\" }")).load("scene.toml"));

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use gpt::scene::*;
+use gpt::spectrum::Spectrum;
 
 use super::scenes::*;
 
@@ -30,7 +31,7 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-pub fn push(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3, estimators: &[Estimator]) {
+pub fn push(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: Spectrum, estimators: &[Estimator]) {
     let number = cases.last().map_or(0, |case| case.of_scene[0] + 1);
     for (index, &estimator) in estimators.iter().enumerate() {
         let mut scene = scene.clone();
@@ -40,7 +41,7 @@ pub fn push(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3, e
             scene.render.spp *= 3;
         }
         let (name, of_scene) = (format!("{name}, {estimator:?}"), [number, index]);
-        cases.push(Case { name, of_scene, scene, expected: expected.to_array() });
+        cases.push(Case { name, of_scene, scene, expected: expected.to_rgb() });
     }
 }
 
@@ -70,16 +71,16 @@ fn furnaces(cases: &mut Vec<Case>) {
             room.iter().for_each(|part| shape(&mut scene, part.clone(), walls));
             // Emitting walls that meet at an edge give light sampling alone infinite variance.
             let estimators = if name == "sphere" { &ALL[..] } else { &[Estimator::Mis, Estimator::Bsdf] };
-            push(cases, &format!("furnace {name}, albedo {albedo}"), &scene, DVec3::splat(1.0 / (1.0 - albedo)), estimators);
+            push(cases, &format!("furnace {name}, albedo {albedo}"), &scene, Spectrum::grey(1.0 / (1.0 - albedo)), estimators);
             if name == "sphere" {
                 scene.render.max_depth = 2;
-                push(cases, &format!("furnace {name}, albedo {albedo}, direct"), &scene, DVec3::splat(1.0 + albedo), &ALL);
+                push(cases, &format!("furnace {name}, albedo {albedo}, direct"), &scene, Spectrum::grey(1.0 + albedo), &ALL);
                 scene.render.heuristic = MisHeuristic::Balance;
                 push(
                     cases,
                     &format!("the same, balance, albedo {albedo}"),
                     &scene,
-                    DVec3::splat(1.0 + albedo),
+                    Spectrum::grey(1.0 + albedo),
                     &[Estimator::Mis],
                 );
             }
@@ -93,26 +94,30 @@ fn inward_spheres(cases: &mut Vec<Case>) {
         let mut scene = scene(128, inside());
         let walls = diffuse(&mut scene, 0.5);
         shape(&mut scene, sphere(DVec3::ZERO, 1.0), walls);
-        let light = Light::Point(PointLight { position: DVec3::ZERO, intensity: DVec3::splat(PI / f64::from(count)) });
+        let light = Light::Point(PointLight { position: DVec3::ZERO, intensity: Spectrum::grey(PI / f64::from(count)) });
         scene.lights = vec![light; count as usize];
-        push(cases, &format!("{count} point lights in a sphere"), &scene, DVec3::ONE, &WITH_LIGHT_SAMPLING);
+        push(cases, &format!("{count} point lights in a sphere"), &scene, Spectrum::WHITE, &WITH_LIGHT_SAMPLING);
     }
     let mut scene = scene(128, inside());
     let walls = glowing(&mut scene, 0.5, 0.5);
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), walls);
-    push(cases, "glowing sphere from inside", &scene, DVec3::ONE, &ALL);
+    push(cases, "glowing sphere from inside", &scene, Spectrum::WHITE, &ALL);
 }
 
 /// Under an environment of 1 all round, a lossless surface shows 1, a Lambert surface its albedo, a mirror its tint.
 fn environments(cases: &mut Vec<Case>) {
-    let tint = DVec3::new(0.9, 0.5, 0.25);
+    let tint = Spectrum::new(0.9, 0.5, 0.25);
     let input = ColorInput::Constant(tint);
     let one = ColorInput::grey(1.0);
     let kinds = [
         ("Lambert", MaterialKind::Diffuse { reflectance: input }, tint),
         ("mirror", MaterialKind::Mirror { reflectance: input }, tint),
-        ("glass 1.5", MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false }, DVec3::ONE),
-        ("glass 1/1.5", MaterialKind::Glass { ior: 1.0 / 1.5, reflectance: one, transmittance: one, thin: false }, DVec3::ONE),
+        ("glass 1.5", MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false }, Spectrum::WHITE),
+        (
+            "glass 1/1.5",
+            MaterialKind::Glass { ior: 1.0 / 1.5, reflectance: one, transmittance: one, thin: false },
+            Spectrum::WHITE,
+        ),
     ];
     for (name, kind, expected) in kinds {
         // To within about a degree of the sphere's silhouette, at asin(1/3) = 19.47° from its middle.
@@ -132,7 +137,7 @@ pub fn at_the_origin() -> Camera {
 /// A sphere of radius R and radiance L straight above: irradiance πL(R/d)².
 fn sphere_lights(cases: &mut Vec<Case>) {
     let (radius, distance, albedo) = (0.6, 1.0, 0.5);
-    let radiance = DVec3::new(1.0, 2.0, 4.0);
+    let radiance = Spectrum::new(1.0, 2.0, 4.0);
     let up = DVec3::Y;
     let grounds = [
         ("rectangle", floor(20.0)),
@@ -167,13 +172,13 @@ fn triangle_lights(cases: &mut Vec<Case>) {
         scene.render.max_depth = 2;
         let white = diffuse(&mut scene, 0.5);
         shape(&mut scene, floor(20.0), white);
-        let light = emissive(&mut scene, DVec3::ONE);
+        let light = emissive(&mut scene, Spectrum::WHITE);
         shape(&mut scene, triangle(corners), light);
         // BSDF samples seldom meet the dim ones: they would need many samples to see 1 %.
         let estimators = if expected > 0.08 { &ALL[..] } else { &WITH_LIGHT_SAMPLING };
         for strategy in [LightSampling::Area, LightSampling::Cone] {
             scene.render.light_sampling = strategy;
-            push(cases, &format!("triangle light {index} by {strategy:?}"), &scene, DVec3::splat(expected), estimators);
+            push(cases, &format!("triangle light {index} by {strategy:?}"), &scene, Spectrum::grey(expected), estimators);
         }
     }
 }

@@ -4,13 +4,14 @@ use std::sync::{Arc, LazyLock};
 
 use glam::{DVec3, Vec2, Vec3};
 use gpt::scene::*;
+use gpt::spectrum::Spectrum;
 
 use super::devices;
 use super::scenes::*;
 use crate::common::effort::in_full;
 
 /// To a camera ray all estimators are one; that they are is tried on spheres, as each costs the device a set of kernels.
-fn assert_every_pixel(name: &str, scene: &Scene, expected: DVec3) {
+fn assert_every_pixel(name: &str, scene: &Scene, expected: Spectrum) {
     let all = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
     let estimators = if name == "sphere" { &all[..] } else { &all[..1] };
     // The wavefront has a set of kernels for each.
@@ -20,7 +21,7 @@ fn assert_every_pixel(name: &str, scene: &Scene, expected: DVec3) {
         for &estimator in estimators {
             let mut scene = scene.clone();
             scene.render.estimator = estimator;
-            let expected = expected.as_vec3().to_array();
+            let expected = expected.to_f32();
             for (index, pixel) in render(&scene).into_iter().enumerate() {
                 assert_eq!(pixel, expected, "{device}, {name}, {estimator:?}, pixel {index}");
             }
@@ -53,7 +54,7 @@ fn looking_down_z() -> Scene {
 
 #[test]
 fn a_light_looks_as_it_emits_from_the_front_and_black_from_behind() {
-    let radiance = DVec3::new(0.125, 17.0, 3.7);
+    let radiance = Spectrum::new(0.125, 17.0, 3.7);
     for (name, geometry) in shapes_before_the_camera() {
         let mut scene = looking_down_z();
         let light = emissive(&mut scene, radiance);
@@ -61,7 +62,7 @@ fn a_light_looks_as_it_emits_from_the_front_and_black_from_behind() {
         assert_every_pixel(name, &scene, radiance);
         if !matches!(name, "sphere" | "box") {
             scene.camera.position.z = -3.0;
-            assert_every_pixel(&format!("{name} from behind"), &scene, DVec3::ZERO);
+            assert_every_pixel(&format!("{name} from behind"), &scene, Spectrum::BLACK);
         }
     }
 }
@@ -69,19 +70,19 @@ fn a_light_looks_as_it_emits_from_the_front_and_black_from_behind() {
 #[test]
 fn a_light_behind_a_pass_surface_looks_the_same() {
     let mut scene = looking_down_z();
-    let light = emissive(&mut scene, DVec3::ONE);
+    let light = emissive(&mut scene, Spectrum::WHITE);
     let nothing = material(&mut scene, MaterialKind::Pass, None);
     let [geometry, veil] = [1.0, 0.5].map(|radius| sphere(-DVec3::Z * 0.5, 2.0 * radius));
     shape(&mut scene, geometry, light);
     shape(&mut scene, Geometry::Plane(Plane { point: DVec3::Z * 2.0, normal: (DVec3::Y + DVec3::Z).normalize() }), nothing);
     shape(&mut scene, veil, nothing);
-    assert_every_pixel("pass", &scene, DVec3::ONE);
+    assert_every_pixel("pass", &scene, Spectrum::WHITE);
 }
 
 /// Past asin(1/1.5) = 41.8° the underside of a pane of glass shows the floor below and nothing of the sky.
 #[test]
 fn total_internal_reflection_is_total() {
-    let floor_radiance = DVec3::new(0.75, 0.5, 0.25);
+    let floor_radiance = Spectrum::new(0.75, 0.5, 0.25);
     let from = |height: f64| {
         // Looks up at 45° for height 3, more steeply below.
         let mut scene = scene(4, camera(DVec3::new(0.0, -height, 0.0), DVec3::new(3.0, 0.0, 0.0), 5.0));
@@ -107,7 +108,7 @@ fn emission_follows_its_texture() {
     let image = Arc::new(ImageData { width: 2, height: 1, texels: texels.into(), has_alpha: false });
     let image = ImageTexture { image, wrap: [TextureWrap::Clamp; 2], filter: TextureFilter::Nearest, scale: [1.0; 2] };
     scene.textures.push(Texture::new("halves", TextureKind::Image(image)));
-    let emission = Emission { radiance: ColorInput::ScaledTexture(0, DVec3::splat(3.0)), two_sided: false };
+    let emission = Emission { radiance: ColorInput::ScaledTexture(0, Spectrum::grey(3.0)), two_sided: false };
     let light = material(&mut scene, MaterialKind::Emissive, Some(emission));
     let positions = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [9.0, 9.0, 0.0], [-9.0, 9.0, 0.0]].map(Vec3::from).to_vec();
     let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec();

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 use gpt::scene::*;
+use gpt::spectrum::Spectrum;
 
 use super::cases::{ALL, Case, WITH_LIGHT_SAMPLING, at_the_origin, push};
 use super::scenes::*;
@@ -36,19 +37,25 @@ fn spheres(cases: &mut Vec<Case>) {
         let mut scene = over_a_floor(1024);
         scene.render.light_sampling = strategy;
         let mut around = scene.clone();
-        let light = emissive(&mut scene, DVec3::new(1.0, 2.0, 4.0));
+        let light = emissive(&mut scene, Spectrum::new(1.0, 2.0, 4.0));
         shape(&mut scene, sphere(DVec3::Y, 0.5), light);
-        let expected = DVec3::new(1.0, 2.0, 4.0) * ALBEDO * 0.25;
+        let expected = Spectrum::new(1.0, 2.0, 4.0) * ALBEDO * 0.25;
         push(cases, &format!("sphere light by {strategy:?}"), &scene, expected, &WITH_LIGHT_SAMPLING);
         let light = glowing(&mut around, 0.0, 2.0);
         shape(&mut around, sphere(DVec3::ZERO, 30.0), light);
-        push(cases, &format!("sphere light around, by {strategy:?}"), &around, DVec3::splat(2.0 * ALBEDO), &WITH_LIGHT_SAMPLING);
+        push(
+            cases,
+            &format!("sphere light around, by {strategy:?}"),
+            &around,
+            Spectrum::grey(2.0 * ALBEDO),
+            &WITH_LIGHT_SAMPLING,
+        );
     }
 }
 
 /// Spot: intensity times its smooth step times cosθ/d². Directional: irradiance times cosθ.
 fn from_points_and_afar(cases: &mut Vec<Case>) {
-    let intensity = DVec3::new(3.0, 2.0, 1.0);
+    let intensity = Spectrum::new(3.0, 2.0, 1.0);
     // The floor's point is 20 degrees off the axis; the light is 2 above it, off the vertical by 30 degrees.
     let to_light = DVec3::new(0.5, 0.75_f64.sqrt(), 0.0);
     let axis = DVec3::new(-(50_f64.to_radians().sin()), -(50_f64.to_radians().cos()), 0.0);
@@ -78,7 +85,7 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
         scene.textures.push(Texture::new("ramp", TextureKind::Image(ImageTexture { image, wrap, filter, scale: [0.5, 1.0] })));
         scene.textures[0].transform.offset = [0.25, 0.0];
         let u = 0.5 + side * place;
-        let texel = DVec3::new(1.0 - u, u, 0.5);
+        let texel = Spectrum::new(1.0 - u, u, 0.5);
         let position = to_light * 2.0;
         let picture = Some(ThrownPicture { texture: 0, up });
         let (angle_degrees, falloff_degrees, curve) = (40.0, 40.0, FalloffCurve::Linear);
@@ -127,7 +134,7 @@ fn maps(cases: &mut Vec<Case>) {
     for (width, height) in [(1, 1), (24, 12)] {
         let mut scene = over_a_floor(256);
         map(&mut scene, width, height, |_, _| 2.0);
-        push(cases, &format!("constant map of {width} x {height}"), &scene, DVec3::splat(2.0 * ALBEDO), &ALL);
+        push(cases, &format!("constant map of {width} x {height}"), &scene, Spectrum::grey(2.0 * ALBEDO), &ALL);
     }
     let (width, height, column, row) = (16_u32, 8_u32, 0, 1);
     let mut scene = over_a_floor(256);
@@ -142,12 +149,12 @@ fn maps(cases: &mut Vec<Case>) {
     }
     // Across, the tent's integral is one texel.
     irradiance *= 40.0 * 2.0 * PI / f64::from(width);
-    push(cases, "a single bright texel", &scene, DVec3::splat(irradiance * ALBEDO / PI), &WITH_LIGHT_SAMPLING);
+    push(cases, "a single bright texel", &scene, Spectrum::grey(irradiance * ALBEDO / PI), &WITH_LIGHT_SAMPLING);
 }
 
 /// Upward, ∫ (h + (z − h)y)·y dω = π(h + 2z)/3.
 fn skies(cases: &mut Vec<Case>) {
-    let (zenith, horizon, ground) = (DVec3::new(0.3, 0.6, 1.2), DVec3::new(1.0, 0.8, 0.6), DVec3::new(0.5, 0.1, 0.1));
+    let (zenith, horizon, ground) = (Spectrum::new(0.3, 0.6, 1.2), Spectrum::new(1.0, 0.8, 0.6), Spectrum::new(0.5, 0.1, 0.1));
     let mut scene = over_a_floor(512);
     scene.lights.push(Light::Sky(Sky { zenith, horizon, ground }));
     push(cases, "sky", &scene, (horizon + zenith * 2.0) / 3.0 * ALBEDO, &ALL);
@@ -194,7 +201,7 @@ fn portals(cases: &mut Vec<Case>) {
     let form_factor = 2.0 / PI * (side(x, z) + side(z, x));
     let mut constant = scene.clone();
     environment(&mut constant, 1.0);
-    push(cases, "portal, constant", &constant, DVec3::splat(form_factor * ALBEDO), &WITH_LIGHT_SAMPLING);
+    push(cases, "portal, constant", &constant, Spectrum::grey(form_factor * ALBEDO), &WITH_LIGHT_SAMPLING);
     map(&mut scene, 4, 2, |_, _| 1.0);
-    push(cases, "portal, map", &scene, DVec3::splat(form_factor * ALBEDO), &WITH_LIGHT_SAMPLING);
+    push(cases, "portal, map", &scene, Spectrum::grey(form_factor * ALBEDO), &WITH_LIGHT_SAMPLING);
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2};
 use gpt::scene::*;
+use gpt::spectrum::Spectrum;
 
 use super::cases::{ALL, Case, push};
 use super::scenes::*;
@@ -25,7 +26,7 @@ pub fn all() -> Vec<Case> {
 const MODES: [BlendMode; 2] = [BlendMode::Mixture, BlendMode::Pick];
 
 /// The case in both modes; picking makes noise of its own.
-fn push_modes(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3, estimators: &[Estimator]) {
+fn push_modes(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: Spectrum, estimators: &[Estimator]) {
     for mode in MODES {
         let mut scene = scene.clone();
         scene.render.blend = mode;
@@ -60,16 +61,18 @@ fn floor_at_spot(scene: &mut Scene, material: MaterialId) {
 
 /// Seen along the normal, no lobe about the mirror direction is cut by the horizon, and its integral has a closed form.
 fn at_normal_incidence(cases: &mut Vec<Case>) {
-    let (a, b) = (DVec3::new(0.6, 0.3, 0.1), DVec3::new(0.2, 0.5, 0.7));
+    let (a, b) = (Spectrum::new(0.6, 0.3, 0.1), Spectrum::new(0.2, 0.5, 0.7));
     let constant = ColorInput::Constant;
     let exponent = ColorInput::grey(12.0);
     let white_metal = |alpha: f64| MaterialKind::Conductor {
-        fresnel: ConductorFresnel::Reflectance(constant(DVec3::ONE)),
+        fresnel: ConductorFresnel::Reflectance(constant(Spectrum::WHITE)),
         facets: Microfacets::ggx(ColorInput::grey(alpha)),
         specular_reflectance: ColorInput::grey(1.0),
     };
-    let (eta, k) = (DVec3::new(0.18, 0.42, 1.37), DVec3::new(3.42, 2.35, 1.77));
-    let normal_reflectance = ((eta - 1.0).powf(2.0) + k * k) / ((eta + 1.0).powf(2.0) + k * k);
+    let (eta, k) = (Spectrum::new(0.18, 0.42, 1.37), Spectrum::new(3.42, 2.35, 1.77));
+    let squared = |color: Spectrum| color * color;
+    let [less, more] = [eta - Spectrum::WHITE, eta + Spectrum::WHITE].map(squared);
+    let normal_reflectance = (less + k * k) / (more + k * k);
     let smooth_gold = MaterialKind::Conductor {
         fresnel: ConductorFresnel::Complex { eta, k },
         facets: Microfacets::ggx(ColorInput::grey(0.0)),
@@ -84,21 +87,21 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         specular_reflectance: constant(b),
         nonlinear,
     };
-    let one = constant(DVec3::ONE);
+    let one = constant(Spectrum::WHITE);
     let facets = Microfacets::ggx(ColorInput::grey(1.0));
     let rough_plate = MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: one, transmittance: one, thin: true };
-    let principled = |base: DVec3, metallic: f64, roughness: f64, transmission: f64| {
+    let principled = |base: Spectrum, metallic: f64, roughness: f64, transmission: f64| {
         MaterialKind::Principled(Box::new(plain_principled(base, metallic, roughness, transmission)))
     };
     // The losses of rough metals are in a table, which is right to 0.002; smooth ones lose nothing.
     let compensated = MaterialKind::Principled(Box::new(Principled {
         energy_compensation: true,
-        ..plain_principled(DVec3::ONE, 1.0, 0.0, 0.0)
+        ..plain_principled(Spectrum::WHITE, 1.0, 0.0, 0.0)
     }));
     let fibres = MaterialKind::Principled(Box::new(Principled {
         sheen_color: constant(a),
         sheen_roughness: one,
-        ..plain_principled(DVec3::ZERO, 1.0, 0.0, 0.0)
+        ..plain_principled(Spectrum::BLACK, 1.0, 0.0, 0.0)
     }));
     let kinds = [
         ("glossy", MaterialKind::Glossy { reflectance: constant(a), exponent }, a),
@@ -110,11 +113,11 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
             a + b,
         ),
         // Half of the light would meet a second microfacet, and more.
-        ("white metal of alpha 1", white_metal(1.0), DVec3::splat(1.0 - std::f64::consts::LN_2)),
+        ("white metal of alpha 1", white_metal(1.0), Spectrum::grey(1.0 - std::f64::consts::LN_2)),
         ("smooth gold", smooth_gold, normal_reflectance),
         // 4 % are reflected above the base, and as much comes out again as goes in.
         ("plastic", plastic(false), 0.04 * b + 0.96 * a),
-        ("nonlinear plastic", plastic(true), 0.04 * b + 0.96 * a * (1.0 - internal) / (1.0 - a * internal)),
+        ("nonlinear plastic", plastic(true), 0.04 * b + 0.96 * a * (1.0 - internal) / (Spectrum::WHITE - a * internal)),
         // Both boundaries reflect, and what goes to and fro between them: 2F/(1 + F).
         (
             "thin glass",
@@ -122,13 +125,17 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
             (0.08 * a + 0.96 * b) / 1.04,
         ),
         // The light that meets one microfacet alone, and is not reflected, goes through.
-        ("rough thin glass of alpha 1", rough_plate, DVec3::splat(1.0 - std::f64::consts::LN_2)),
-        ("principled white metal", principled(DVec3::ONE, 1.0, 1.0, 0.0), DVec3::splat(1.0 - std::f64::consts::LN_2)),
+        ("rough thin glass of alpha 1", rough_plate, Spectrum::grey(1.0 - std::f64::consts::LN_2)),
+        ("principled white metal", principled(Spectrum::WHITE, 1.0, 1.0, 0.0), Spectrum::grey(1.0 - std::f64::consts::LN_2)),
         // Nothing is lost.
-        ("principled compensated smooth metal", compensated, DVec3::ONE),
+        ("principled compensated smooth metal", compensated, Spectrum::WHITE),
         ("principled fibres on black", fibres, a * reflected_by_fibres()),
-        ("principled smooth dielectric", principled(a, 0.0, 0.0, 0.0), 0.04 + a * (1.0 - reflected_by_half_vectors())),
-        ("principled thin wall", principled(a, 0.0, 0.0, 1.0), 0.04 + 0.96 * a),
+        (
+            "principled smooth dielectric",
+            principled(a, 0.0, 0.0, 0.0),
+            Spectrum::grey(0.04) + a * (1.0 - reflected_by_half_vectors()),
+        ),
+        ("principled thin wall", principled(a, 0.0, 0.0, 1.0), Spectrum::grey(0.04) + 0.96 * a),
         // 4 % are reflected; the rest is spread over a cone ior² times as large.
         ("Phong glass", glass(Microfacets::phong(exponent)), 0.04 * a + 0.96 / 2.25 * b),
     ];
@@ -141,7 +148,7 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
 }
 
 /// Thin where it lets light through, without extensions.
-fn plain_principled(base: DVec3, metallic: f64, roughness: f64, transmission: f64) -> Principled {
+fn plain_principled(base: Spectrum, metallic: f64, roughness: f64, transmission: f64) -> Principled {
     let (zero, one, grey) = (ColorInput::grey(0.0), ColorInput::grey(1.0), ColorInput::grey);
     Principled {
         base_color: ColorInput::Constant(base),
@@ -169,15 +176,16 @@ fn plain_principled(base: DVec3, metallic: f64, roughness: f64, transmission: f6
 /// A block seen along the normal of its front: light comes in and out as often as its boundaries reflect it, and a colour is left of it each
 /// time that it goes from one to the other.
 fn volumes(cases: &mut Vec<Case>) {
-    let color = DVec3::new(0.9, 0.6, 0.4);
+    let color = Spectrum::new(0.9, 0.6, 0.4);
     for (name, ior, boundary) in [("block of air", 1.0, 0.0), ("block of glass", 1.5, 0.04)] {
         let mut scene = spot(64, 0.0);
         scene.render.max_depth = 40;
         let attenuation = Some(Attenuation { color: color.map(f64::sqrt), distance: 0.25 });
-        let kind = Principled { ior, thin: false, attenuation, ..plain_principled(DVec3::ONE, 0.0, 0.0, 1.0) };
+        let kind = Principled { ior, thin: false, attenuation, ..plain_principled(Spectrum::WHITE, 0.0, 0.0, 1.0) };
         let material = material(&mut scene, MaterialKind::Principled(Box::new(kind)), None);
         shape(&mut scene, Geometry::Box(Cuboid { min: DVec3::new(-9.0, -0.5, -9.0), max: DVec3::new(9.0, 0.0, 9.0) }), material);
-        let expected = boundary + (1.0 - boundary) * (1.0 - boundary) * color / (DVec3::ONE - boundary * color);
+        let passed = (1.0 - boundary) * (1.0 - boundary) * color / (Spectrum::WHITE - boundary * color);
+        let expected = Spectrum::grey(boundary) + passed;
         push(cases, name, &scene, expected, &ALL);
     }
 }
@@ -185,20 +193,21 @@ fn volumes(cases: &mut Vec<Case>) {
 /// Blocks of media that bend no light, one within another, seen along the normal of their fronts: at each height the medium counts that was
 /// entered last, also where one ends within another, and a clear one counts as well.
 fn nested_media(cases: &mut Vec<Case>) {
-    let colors = [DVec3::new(0.9, 0.6, 0.4), DVec3::new(0.3, 0.8, 0.7), DVec3::new(0.6, 0.5, 0.9)];
+    let colors = [Spectrum::new(0.9, 0.6, 0.4), Spectrum::new(0.3, 0.8, 0.7), Spectrum::new(0.6, 0.5, 0.9)];
     // From the top: the outer block, a clear one, one that begins before the next and ends in it, and that.
     let blocks = [(-1.0, 0.0, Some(0)), (-0.4, -0.3, None), (-0.6, -0.45, Some(1)), (-0.75, -0.5, Some(2))];
     let thickness = [0.3 + 0.05 + 0.25, 0.05, 0.25];
-    let mut scene = spot(64, 0.0);
+    let mut scene = spot(512, 0.0);
     scene.render.max_depth = 40;
     for (bottom, top, color) in blocks {
         let attenuation = color.map(|index: usize| Attenuation { color: colors[index], distance: 0.5 });
-        let kind = Principled { ior: 1.0, thin: false, attenuation, ..plain_principled(DVec3::ONE, 0.0, 0.0, 1.0) };
+        let kind = Principled { ior: 1.0, thin: false, attenuation, ..plain_principled(Spectrum::WHITE, 0.0, 0.0, 1.0) };
         let material = material(&mut scene, MaterialKind::Principled(Box::new(kind)), None);
         let block = Cuboid { min: DVec3::new(-9.0, bottom, -9.0), max: DVec3::new(9.0, top, 9.0) };
         shape(&mut scene, Geometry::Box(block), material);
     }
-    let expected = (0..3).map(|index| colors[index].powf(thickness[index] / 0.5)).product();
+    let passes = |index: usize| colors[index].map(|left| left.powf(thickness[index] / 0.5));
+    let expected = passes(0) * passes(1) * passes(2);
     push(cases, "blocks within blocks", &scene, expected, &ALL);
 }
 
@@ -243,10 +252,10 @@ fn blends_by_angle(cases: &mut Vec<Case>) {
         ("threshold below", threshold(0.51, facing(1.0)), 0.0),
         ("reversed threshold of a reverse", reverse(threshold(0.6, reverse(facing(0.2)))), 1.0),
     ];
-    let tint = DVec3::new(0.9, 0.6, 0.3);
+    let tint = Spectrum::new(0.9, 0.6, 0.3);
     for (name, weight, w0) in weights {
         let mut scene = spot(256, 60.0);
-        let colors = (DVec3::new(0.8, 0.25, 0.5), DVec3::ONE);
+        let colors = (Spectrum::new(0.8, 0.25, 0.5), Spectrum::WHITE);
         let kind = TextureKind::Checker { a: colors.0, b: colors.1, scale: [1.0, 1.0] };
         scene.textures.push(Texture::new("checker", kind));
         let bright = material(&mut scene, MaterialKind::Diffuse { reflectance: ColorInput::Constant(tint) }, None);
@@ -257,7 +266,7 @@ fn blends_by_angle(cases: &mut Vec<Case>) {
             cases,
             &format!("Lamberts by {name}"),
             &scene,
-            tint * w0 + (1.0 - w0) * 0.1,
+            tint * w0 + Spectrum::grey((1.0 - w0) * 0.1),
             &[Estimator::Mis, Estimator::Bsdf],
         );
     }
@@ -276,13 +285,13 @@ fn blends_with_delta_lobes(cases: &mut Vec<Case>) {
         let (matte, shiny) = (diffuse(&mut scene, albedo), mirror(&mut scene));
         let both = blend(&mut scene, matte, shiny, half());
         shape(&mut scene, sphere(DVec3::ZERO, 1.0), both);
-        push_modes(cases, &format!("Lambert {albedo} and mirror"), &scene, DVec3::splat(0.5 * albedo + 0.5), &ALL);
+        push_modes(cases, &format!("Lambert {albedo} and mirror"), &scene, Spectrum::grey(0.5 * albedo + 0.5), &ALL);
     }
     let mut scene = sphere_before(256);
     let (shiny, clear) = (mirror(&mut scene), glass(&mut scene, 1.5));
     let both = blend(&mut scene, shiny, clear, BlendWeight::Facing { power: 1.0 });
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), both);
-    push_modes(cases, "mirror and glass", &scene, DVec3::ONE, &[Estimator::Mis]);
+    push_modes(cases, "mirror and glass", &scene, Spectrum::WHITE, &[Estimator::Mis]);
 
     // Nested: 0.25 mirror + 0.75·(0.4 Lambert 0.6 + 0.6·(0.5 Lambert 0.2 + 0.5 white smooth metal)).
     let mut scene = sphere_before(128);
@@ -296,7 +305,7 @@ fn blends_with_delta_lobes(cases: &mut Vec<Case>) {
     let outer = blend(&mut scene, shiny, middle, BlendWeight::Constant { value: 0.25 });
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), outer);
     let expected = 0.25 + 0.75 * (0.4 * 0.6 + 0.6 * (0.5 * 0.2 + 0.5));
-    push_modes(cases, "nested blend", &scene, DVec3::splat(expected), &ALL);
+    push_modes(cases, "nested blend", &scene, Spectrum::grey(expected), &ALL);
 }
 
 /// Closed surface, blend of Lamberts, emission of the parts and of the blend itself: Le/(1 − Σ wᵢρᵢ), Le = Σ wᵢLeᵢ + Le.
@@ -312,9 +321,9 @@ fn furnaces_of_blends(cases: &mut Vec<Case>) {
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), outer);
     let albedo = 0.25 * 0.9 + 0.375 * 0.1 + 0.375 * 0.5;
     let radiance = 0.25 * 2.0 + 0.375 * 0.4 + 0.2;
-    push_modes(cases, "furnace of a nested blend", &scene, DVec3::splat(radiance / (1.0 - albedo)), &ALL);
+    push_modes(cases, "furnace of a nested blend", &scene, Spectrum::grey(radiance / (1.0 - albedo)), &ALL);
     scene.render.max_depth = 2;
-    push_modes(cases, "the same, direct", &scene, DVec3::splat(radiance * (1.0 + albedo)), &ALL);
+    push_modes(cases, "the same, direct", &scene, Spectrum::grey(radiance * (1.0 + albedo)), &ALL);
 }
 
 /// Blends with `pass`: the environment shows through, and light in front of it adds to it.
@@ -324,13 +333,13 @@ fn veils(cases: &mut Vec<Case>) {
     let (nothing, matte) = (pass(&mut scene), diffuse(&mut scene, 0.6));
     let veil = blend(&mut scene, nothing, matte, half());
     floor_at_spot(&mut scene, veil);
-    push_modes(cases, "veil", &scene, DVec3::splat(0.5 + 0.5 * 0.6), &ALL);
+    push_modes(cases, "veil", &scene, Spectrum::grey(0.5 + 0.5 * 0.6), &ALL);
 
     let mut scene = spot(256, 40.0);
-    let (light, nothing) = (emissive(&mut scene, DVec3::new(2.0, 1.0, 0.5)), pass(&mut scene));
+    let (light, nothing) = (emissive(&mut scene, Spectrum::new(2.0, 1.0, 0.5)), pass(&mut scene));
     let flame = blend(&mut scene, light, nothing, BlendWeight::Constant { value: 0.3 });
     floor_at_spot(&mut scene, flame);
-    push_modes(cases, "glowing veil", &scene, DVec3::new(2.0, 1.0, 0.5) * 0.3 + 0.7, &ALL);
+    push_modes(cases, "glowing veil", &scene, Spectrum::new(2.0, 1.0, 0.5) * 0.3 + Spectrum::grey(0.7), &ALL);
 
     // Two walls of a hollow ball, each letting nine tenths through, end no edge: the light behind is seen directly.
     let mut scene = spot(256, 40.0);
@@ -339,10 +348,10 @@ fn veils(cases: &mut Vec<Case>) {
     let (nothing, black) = (pass(&mut scene), diffuse(&mut scene, 0.0));
     let gauze = blend(&mut scene, nothing, black, BlendWeight::Constant { value: 0.9 });
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), gauze);
-    let light = emissive(&mut scene, DVec3::splat(3.0));
+    let light = emissive(&mut scene, Spectrum::grey(3.0));
     shape(&mut scene, sphere(DVec3::ZERO, 100.0), light);
     scene.materials[light].emission = Some(Emission { radiance: ColorInput::grey(3.0), two_sided: true });
-    push_modes(cases, "light behind two veils", &scene, DVec3::splat(0.81 * 3.0), &ALL);
+    push_modes(cases, "light behind two veils", &scene, Spectrum::grey(0.81 * 3.0), &ALL);
 }
 
 /// The sphere light over a floor, its emission weighted by a blend.
@@ -353,10 +362,10 @@ fn blended_lights(cases: &mut Vec<Case>) {
     scene.render.max_depth = 2;
     let white = diffuse(&mut scene, albedo);
     floor_at_spot(&mut scene, white);
-    let (light, black) = (emissive(&mut scene, DVec3::new(1.0, 2.0, 4.0)), diffuse(&mut scene, 0.0));
+    let (light, black) = (emissive(&mut scene, Spectrum::new(1.0, 2.0, 4.0)), diffuse(&mut scene, 0.0));
     let lamp = blend(&mut scene, black, light, BlendWeight::Constant { value: 0.75 });
     shape(&mut scene, sphere(DVec3::Y * distance, radius), lamp);
-    let expected = DVec3::new(1.0, 2.0, 4.0) * 0.25 * albedo * (radius / distance).powi(2);
+    let expected = Spectrum::new(1.0, 2.0, 4.0) * 0.25 * albedo * (radius / distance).powi(2);
     push_modes(cases, "blended sphere light", &scene, expected, &ALL);
 }
 
@@ -385,16 +394,16 @@ pub fn with_normal_maps() -> Vec<Case> {
             let (wi, distance) = (DVec3::new(0.5, 1.0, 0.2).normalize() * sign, 2.0);
             let mut scene = scene(4, camera(DVec3::new(0.6, 1.5, 0.8) * sign, DVec3::ZERO, 0.001));
             scene.render.max_depth = 2;
-            let texel = local * 0.5 + 0.5;
+            let texel = Spectrum::from_rgb((local * 0.5 + 0.5).to_array());
             let kind = TextureKind::Checker { a: texel, b: texel, scale: [1.0, 1.0] };
             scene.textures.push(Texture::new("normals", kind));
             let matte = diffuse(&mut scene, 0.6);
             scene.materials[matte].normal_map = Some(0);
             shape(&mut scene, geometry.clone(), matte);
-            scene.lights.push(Light::Point(PointLight { position: wi * distance, intensity: DVec3::splat(3.0) }));
+            scene.lights.push(Light::Point(PointLight { position: wi * distance, intensity: Spectrum::grey(3.0) }));
             let expected = 0.6 / PI * 3.0 * (normal * sign).dot(wi) / (distance * distance);
             // The picture's edge sees the light at another angle, by 10⁻⁵.
-            push(&mut cases, &format!("normal map of a {name}, {side}"), &scene, DVec3::splat(expected), &[Estimator::Mis]);
+            push(&mut cases, &format!("normal map of a {name}, {side}"), &scene, Spectrum::grey(expected), &[Estimator::Mis]);
         }
     }
     cases

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 use gpt::scene::*;
+use gpt::spectrum::Spectrum;
 
 use super::SIDE;
 
@@ -40,7 +41,7 @@ pub fn glowing(scene: &mut Scene, reflectance: f64, radiance: f64) -> MaterialId
 }
 
 /// Emits from the front alone and reflects nothing.
-pub fn emissive(scene: &mut Scene, radiance: DVec3) -> MaterialId {
+pub fn emissive(scene: &mut Scene, radiance: Spectrum) -> MaterialId {
     let emission = Emission { radiance: ColorInput::Constant(radiance), two_sided: false };
     material(scene, MaterialKind::Emissive, Some(emission))
 }
@@ -83,7 +84,7 @@ pub fn cube_mesh() -> Geometry {
 }
 
 pub fn environment(scene: &mut Scene, radiance: f64) {
-    let radiance = EnvironmentRadiance::Constant(DVec3::splat(radiance));
+    let radiance = EnvironmentRadiance::Constant(Spectrum::grey(radiance));
     scene.lights.push(Light::Environment(Environment {
         radiance,
         rotation_degrees: 0.0,

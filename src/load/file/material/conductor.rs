@@ -1,6 +1,5 @@
 //! `type = "conductor"`
 
-use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,6 +12,7 @@ use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located, NonNegative, Positive};
 use crate::load::file::writer::{Writer, colour, line};
 use crate::scene::{ColorInput, ConductorFresnel, MaterialKind, Microfacets};
+use crate::spectrum::Spectrum;
 
 material_keys! {
     /// A metal, smooth or of microfacets: `eta` and `k`, a `preset`, or `reflectance`.
@@ -134,5 +134,5 @@ fn metal_fresnel(metal: MetalEntry) -> ConductorFresnel {
         MetalEntry::Silver => ([0.155265, 0.116723, 0.138344], [4.82835, 3.12225, 2.14696]),
         MetalEntry::Aluminium => ([1.65746, 0.880369, 0.521229], [9.22387, 6.26952, 4.837]),
     };
-    ConductorFresnel::Complex { eta: DVec3::from_array(eta), k: DVec3::from_array(k) }
+    ConductorFresnel::Complex { eta: Spectrum::from_rgb(eta), k: Spectrum::from_rgb(k) }
 }

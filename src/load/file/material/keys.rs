@@ -45,7 +45,7 @@ pub trait MaterialKeys {
 
 /// None where no light is sent out.
 pub fn emission_of(radiance: ColorInput, two_sided: bool) -> Option<Emission> {
-    let dark = matches!(radiance, ColorInput::Constant(radiance) if radiance.max_element() == 0.0);
+    let dark = matches!(radiance, ColorInput::Constant(radiance) if radiance.max_component() == 0.0);
     (!dark).then_some(Emission { radiance, two_sided })
 }
 

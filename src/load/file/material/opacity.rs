@@ -9,6 +9,7 @@ use crate::load::file::reference::{NamesTextures, TextureName};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, Located};
 use crate::scene::{BlendWeight, Channel, ChannelInput, ColorInput};
+use crate::spectrum::Spectrum;
 
 /// One number, or a texture.
 pub type Opacity = NumberOr<Fraction, OpacityTexture>;
@@ -42,10 +43,10 @@ impl Opacity {
             Self::Table(keys) => keys,
         };
         let channel = keys.channel.map_or(Channel::R, Into::into);
-        let factor = glam::DVec3::splat(keys.factor.map_or(1.0, |factor| factor.0));
+        let factor = Spectrum::grey(keys.factor.map_or(1.0, |factor| factor.0));
         let weight = match resolver.texture_in_range::<Fraction>(&keys.texture, Some(channel), factor)? {
             ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => {
-                BlendWeight::Channel { texture, channel, factor: factor.x }
+                BlendWeight::Channel { texture, channel, factor: factor.r() }
             }
             // With a channel, nothing else comes of it.
             other => BlendWeight::Texture { texture: other.texture().unwrap_or_default() },

@@ -40,8 +40,8 @@ impl Keys {
     fn check_sum(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
         if let (Colour::Constant(diffuse), Colour::Constant(specular)) = (&self.diffuse, &self.specular.value) {
             let sum = diffuse.0 + specular.0;
-            if sum.max_element() > 1.0 + 1e-9 {
-                let message = format!("diffuse + specular is at most 1 per channel, found {}", sum.max_element());
+            if sum.max_component() > 1.0 + 1e-9 {
+                let message = format!("diffuse + specular is at most 1 per channel, found {}", sum.max_component());
                 return Err(resolver.error(&self.specular.place, message));
             }
         }

@@ -1,7 +1,5 @@
 //! `type = "principled"`
 
-use glam::DVec3;
-
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::MaskingEntry;
 use crate::load::error::SceneError;
@@ -12,6 +10,7 @@ use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, No
 use crate::load::file::writer::{self, Writer, flag, line, number};
 use crate::load::place::Place;
 use crate::scene::{Attenuation, CoatNormalMap, ColorInput, Masking, MaterialKind, Principled};
+use crate::spectrum::Spectrum;
 
 material_keys! {
     /// The metallic-roughness material of glTF 2.0 (Appendix B) with its extensions for the index of refraction, specular, transmission,
@@ -122,7 +121,7 @@ impl MaterialKeys for Keys {
             thin: self.thin.as_ref().is_some_and(|thin| thin.value),
             attenuation: attenuation
                 .map(|(color, distance)| Attenuation { color: color.value.0, distance: distance.value.0 })
-                .filter(|attenuation| attenuation.color != DVec3::ONE),
+                .filter(|attenuation| attenuation.color != Spectrum::WHITE),
             clearcoat: scalar(&self.clearcoat, 0.0)?,
             clearcoat_roughness: clearcoat_roughness.unwrap_or(ColorInput::grey(0.0)),
             coat_normal_map: coat_normal_map.map(|texture| CoatNormalMap { texture, scale: coat_normal_scale }),

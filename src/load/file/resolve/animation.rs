@@ -205,9 +205,10 @@ impl Resolver<'_> {
         let times = |entry: &K| (entry.key().frame, entry.key().time);
         let frames = self.frames(keyframes, self.scene.animation.frames_per_second, times)?;
         let interpolation = interpolation.map_or(Interpolation::default(), |name| name.value.into());
-        for curve in [&mut track.position, &mut track.direction, &mut track.strength] {
+        for curve in [&mut track.position, &mut track.direction] {
             curve.interpolation = interpolation;
         }
+        track.strength.interpolation = interpolation;
         track.rotation.interpolation = interpolation;
         for (entry, frame) in keyframes.value.iter().zip(frames) {
             let LightKey { position, direction, strength, rotation_degrees, .. } = entry.value.key();

@@ -13,8 +13,6 @@
 
 use std::path::Path;
 
-use glam::DVec3;
-
 use super::mtl_principled::is_principled;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
@@ -27,24 +25,25 @@ use crate::scene::{
     BlendWeight, Channel, ColorInput, ColorSpace, Emission, ImageData, ImageTexture, Material, MaterialId, MaterialKind,
     Principled, Relief, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
+use crate::spectrum::Spectrum;
 
 /// Stands for what is missing. No material looks so by chance.
-const MAGENTA: DVec3 = DVec3::new(1.0, 0.0, 1.0);
+const MAGENTA: Spectrum = Spectrum::new(1.0, 0.0, 1.0);
 /// A highlight that stays whatever Kd is: the reflectance of plastic seen head-on.
 const LEAST_SPECULAR: f64 = 0.04;
 
 /// The factors of Kd and Ks with which they take no more than all light in any channel. Ks gives way first, as a whole: both keep their hue.
-fn shares(diffuse: DVec3, specular: DVec3) -> [f64; 2] {
+fn shares(diffuse: Spectrum, specular: Spectrum) -> [f64; 2] {
     // f32 texels of 1 come out as 1 + 6e-8 at most.
-    if (diffuse + specular).max_element() <= 1.0 + 1e-6 {
+    if (diffuse + specular).max_component() <= 1.0 + 1e-6 {
         return [1.0; 2];
     }
     // The largest factor up to 1 that leaves a colour room beside another.
-    let room = |colour: DVec3, other: DVec3| {
-        let channels = (0..3).filter(|&channel| colour[channel] > 0.0);
-        channels.map(|channel| (1.0 - other[channel]) / colour[channel]).fold(1.0, f64::min).max(0.0)
+    let room = |colour: Spectrum, other: Spectrum| {
+        let channels = colour.to_rgb().into_iter().zip(other.to_rgb()).filter(|(channel, _)| *channel > 0.0);
+        channels.map(|(channel, other)| (1.0 - other) / channel).fold(1.0, f64::min).max(0.0)
     };
-    let least = (LEAST_SPECULAR / specular.max_element()).min(1.0);
+    let least = (LEAST_SPECULAR / specular.max_component()).min(1.0);
     let of_specular = room(specular, diffuse).max(least);
     [room(diffuse, specular * of_specular), of_specular]
 }
@@ -104,7 +103,7 @@ impl Resolver<'_> {
     }
 
     fn mtl_kind(&mut self, written: &MtlMaterial, opacity: f64) -> Result<MaterialKind, SceneError> {
-        let specular = written.colour("Ks").unwrap_or(DVec3::ZERO);
+        let specular = written.colour("Ks").unwrap_or(Spectrum::BLACK);
         let illumination = written.illumination.unwrap_or(2);
         let ior = written.number("Ni").unwrap_or(1.0);
         if is_principled(written) && opacity > 0.0 {
@@ -116,21 +115,21 @@ impl Resolver<'_> {
         if opacity == 0.0 {
             return Ok(MaterialKind::Pass);
         }
-        let polished = written.colour("Kd") == Some(DVec3::ZERO)
-            && specular.min_element() > 0.9
+        let polished = written.colour("Kd") == Some(Spectrum::BLACK)
+            && specular.min_component() > 0.9
             && written.number("Ns").is_some_and(|exponent| exponent >= 1000.0);
         if matches!(illumination, 3 | 5) || polished {
-            let tint = if specular.max_element() > 0.0 { specular } else { DVec3::ONE };
+            let tint = if specular.max_component() > 0.0 { specular } else { Spectrum::WHITE };
             return Ok(MaterialKind::Mirror { reflectance: ColorInput::Constant(self.at_most_one(written, "Ks", tint)) });
         }
-        if specular.max_element() > 0.0 && illumination >= 2 {
+        if specular.max_component() > 0.0 && illumination >= 2 {
             return self.mtl_phong(written, specular);
         }
         Ok(MaterialKind::Diffuse { reflectance: self.mtl_diffuse(written)? })
     }
 
     /// Kd, Ks and Ns as they are; where both colours together would make energy, they are shrunk.
-    fn mtl_phong(&mut self, written: &MtlMaterial, specular: DVec3) -> Result<MaterialKind, SceneError> {
+    fn mtl_phong(&mut self, written: &MtlMaterial, specular: Spectrum) -> Result<MaterialKind, SceneError> {
         let specular = self.at_most_one(written, "Ks", specular);
         let diffuse = self.mtl_diffuse(written)?;
         let brightest_texel = |texture: TextureId| self.scene.textures[texture].kind.range().1;
@@ -138,7 +137,7 @@ impl Resolver<'_> {
             ColorInput::Constant(colour) => colour,
             ColorInput::ScaledTexture(texture, factor) => factor * brightest_texel(texture),
             // MTL has nothing but whole textures besides.
-            other => DVec3::splat(other.texture().map_or(0.0, brightest_texel)),
+            other => Spectrum::grey(other.texture().map_or(0.0, brightest_texel)),
         };
         let [of_diffuse, of_specular] = shares(brightest, specular);
         if of_specular < 1.0 {
@@ -150,13 +149,13 @@ impl Resolver<'_> {
             );
         }
         let specular = specular * of_specular;
-        let diffuse = if of_diffuse == 1.0 { diffuse } else { diffuse.scaled(DVec3::splat(of_diffuse)) };
+        let diffuse = if of_diffuse == 1.0 { diffuse } else { diffuse.scaled(Spectrum::grey(of_diffuse)) };
         let exponent = written.number("Ns").unwrap_or(0.0);
         Ok(MaterialKind::Phong { diffuse, specular: ColorInput::Constant(specular), exponent: ColorInput::grey(exponent) })
     }
 
     fn mtl_glass(&mut self, written: &MtlMaterial, ior: f64) -> MaterialKind {
-        let transmittance = written.colour("Tf").map_or(DVec3::ONE, |filter| self.at_most_one(written, "Tf", filter));
+        let transmittance = written.colour("Tf").map_or(Spectrum::WHITE, |filter| self.at_most_one(written, "Tf", filter));
         MaterialKind::Glass {
             ior,
             reflectance: ColorInput::grey(1.0),
@@ -173,7 +172,7 @@ impl Resolver<'_> {
 
     fn mtl_emission(&mut self, written: &MtlMaterial) -> Result<Option<Emission>, SceneError> {
         let factor = written.colour("Ke");
-        if factor.is_some_and(|factor| factor.max_element() == 0.0) {
+        if factor.is_some_and(|factor| factor.max_component() == 0.0) {
             return Ok(None);
         }
         let radiance = self.mtl_texture(written, "map_Ke", factor, None)?.or(factor.map(ColorInput::Constant));
@@ -201,15 +200,15 @@ impl Resolver<'_> {
         &mut self,
         written: &MtlMaterial,
         key: MtlKey,
-        tint: Option<DVec3>,
+        tint: Option<Spectrum>,
         space: Option<ColorSpace>,
     ) -> Result<Option<ColorInput>, SceneError> {
         let Some(map) = self.mtl_map(written, key)? else { return Ok(None) };
         let Some(texture) = self.mtl_picture(written, key, &map, space)? else {
-            return Ok(Some(ColorInput::Constant(MAGENTA * tint.map_or(1.0, DVec3::max_element).max(0.5))));
+            return Ok(Some(ColorInput::Constant(MAGENTA * tint.map_or(1.0, Spectrum::max_component).max(0.5))));
         };
-        let tint = tint.unwrap_or(DVec3::ONE) * map.gain();
-        Ok(Some(if tint == DVec3::ONE { ColorInput::Texture(texture) } else { ColorInput::ScaledTexture(texture, tint) }))
+        let tint = tint.unwrap_or(Spectrum::WHITE) * map.gain();
+        Ok(Some(if tint == Spectrum::WHITE { ColorInput::Texture(texture) } else { ColorInput::ScaledTexture(texture, tint) }))
     }
 
     /// The picture of a map as a texture. None where it cannot be read, which is told.
@@ -306,11 +305,11 @@ impl Resolver<'_> {
     }
 
     /// A reflectance above 1 would make energy.
-    fn at_most_one(&mut self, written: &MtlMaterial, key: &str, colour: DVec3) -> DVec3 {
-        if colour.max_element() > 1.0 {
+    fn at_most_one(&mut self, written: &MtlMaterial, key: &str, colour: Spectrum) -> Spectrum {
+        if colour.max_component() > 1.0 {
             self.warn(written, &format!("{key} of the material `{}` is above 1 and taken as 1", written.name));
         }
-        colour.min(DVec3::ONE)
+        colour.min(Spectrum::WHITE)
     }
 
     pub(super) fn warn(&mut self, written: &MtlMaterial, what: &str) {
@@ -353,13 +352,13 @@ mod tests {
             ([0.0, 0.0, 1.0], [0.02; 3], [0.98, 1.0]),
         ];
         for (diffuse, specular, expected) in rows {
-            let (diffuse, specular) = (DVec3::from(diffuse), DVec3::from(specular));
+            let (diffuse, specular) = (Spectrum::from_rgb(diffuse), Spectrum::from_rgb(specular));
             let [of_diffuse, of_specular] = shares(diffuse, specular);
             assert!(
                 (of_diffuse - expected[0]).abs() < 1e-9 && (of_specular - expected[1]).abs() < 1e-9,
                 "{of_diffuse}, {of_specular}"
             );
-            assert!((diffuse * of_diffuse + specular * of_specular).max_element() <= 1.0 + 1e-9);
+            assert!((diffuse * of_diffuse + specular * of_specular).max_component() <= 1.0 + 1e-9);
         }
     }
 }

@@ -1,11 +1,10 @@
 //! MTL's keys of physically based materials (`Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor`, their maps and `norm`), as Blender writes them.
 
-use glam::DVec3;
-
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::model::{MtlKey, MtlMaterial};
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, Masking, MaterialKind, Principled};
+use crate::spectrum::Spectrum;
 
 /// Keys of which one makes a material this kind.
 const KEYS: [MtlKey; 4] = ["Pr", "Pm", "map_Pr", "map_Pm"];
@@ -66,7 +65,7 @@ impl Resolver<'_> {
         let factor = written.number(key);
         let Some(map) = self.mtl_map(written, map_key)? else { return Ok(ColorInput::grey(factor.unwrap_or(otherwise))) };
         // Beside a map the number is often 0, which would leave nothing of it.
-        let factor = DVec3::splat(factor.filter(|factor| *factor > 0.0).unwrap_or(1.0) * map.gain());
+        let factor = Spectrum::grey(factor.filter(|factor| *factor > 0.0).unwrap_or(1.0) * map.gain());
         let channel = map.channel.unwrap_or(Channel::R);
         Ok(match self.mtl_picture(written, map_key, &map, Some(ColorSpace::Linear))? {
             Some(texture) => ColorInput::Channel(ChannelInput { texture, channel, factor, is_squared: false }),

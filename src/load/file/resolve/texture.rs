@@ -5,7 +5,6 @@ use std::collections::hash_map::Entry;
 use std::mem::take;
 use std::sync::Arc;
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::load::error::SceneError;
@@ -20,6 +19,7 @@ use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{
     ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
+use crate::spectrum::Spectrum;
 
 impl Resolver<'_> {
     pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
@@ -28,7 +28,8 @@ impl Resolver<'_> {
         for (index, entry) in written.iter().enumerate() {
             let kind = self.texture_kind(entry);
             // Something has to stand in its place, or others would have none.
-            let kind = self.note(kind).unwrap_or(TextureKind::Checker { a: DVec3::ZERO, b: DVec3::ZERO, scale: [1.0; 2] });
+            let kind =
+                self.note(kind).unwrap_or(TextureKind::Checker { a: Spectrum::BLACK, b: Spectrum::BLACK, scale: [1.0; 2] });
             self.linear_textures
                 .push(matches!(entry, TextureEntry::Image(ImageEntry { color_space: Some(ColorSpaceEntry::Linear), .. })));
             let CommonKeys { name, rotation, offset, second_uvs, bends_by_first_uvs, .. } = entry.common();
@@ -152,13 +153,13 @@ impl Resolver<'_> {
     }
 
     /// A colour in the place of a picture that cannot be read.
-    fn fallback(&mut self, error: SceneError, written: &ImageEntry, colour: DVec3) -> Result<TextureKind, SceneError> {
+    fn fallback(&mut self, error: SceneError, written: &ImageEntry, colour: Spectrum) -> Result<TextureKind, SceneError> {
         if self.strict {
             return Err(error.with_help("without --strict, its `fallback` stands for it"));
         }
         let source = self.picture_source(&written.file.value).to_source(written.color_space.map(Into::into));
         self.scene.sources.add_unreadable(&written.name.value, source);
-        let [r, g, b] = colour.to_array();
+        let [r, g, b] = colour.to_rgb();
         self.scene.warnings.push(format!("{error}; the colour [{r}, {g}, {b}] stands for it"));
         Ok(TextureKind::Checker { a: colour, b: colour, scale: [1.0; 2] })
     }

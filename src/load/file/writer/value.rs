@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use crate::load::toml_text::{line, list, number};
+use crate::spectrum::Spectrum;
 
 /// Ways that are tried to write a direction.
 const MOST_TRIALS: u32 = 4096;
@@ -32,8 +33,8 @@ pub fn pair_f32(value: Vec2) -> String {
 }
 
 /// One number where all channels are equal.
-pub fn colour(value: DVec3) -> String {
-    if value.min_element() == value.max_element() { number(value.x) } else { vector(value) }
+pub fn colour(value: Spectrum) -> String {
+    if value.min_component() == value.max_component() { number(value.r()) } else { numbers(&value.to_rgb()) }
 }
 
 /// A direction of length 1. The reader makes its length 1 once more, which may change last bits: a multiple is written that becomes exactly

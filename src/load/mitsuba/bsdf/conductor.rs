@@ -14,6 +14,7 @@ use crate::load::import::Input;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::metals::{self, Metal};
 use crate::load::mitsuba::plugin::{Plugin, PropertyValue};
+use crate::spectrum::Spectrum;
 
 pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     let tint = converter.reflectance(plugin, "specular_reflectance", 1.0)?;
@@ -42,8 +43,8 @@ pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed
     match fresnel {
         Some(Metal::Preset(preset)) => keys.preset = Some(place.at(preset)),
         Some(Metal::Constants { eta, k }) => {
-            keys.eta = Some(place.at(plugin.possible(Rgb::of(eta))?));
-            keys.k = Some(place.at(plugin.possible(Rgb::of(k))?));
+            keys.eta = Some(place.at(plugin.possible(Rgb::of(Spectrum::from_rgb(eta.to_array())))?));
+            keys.k = Some(place.at(plugin.possible(Rgb::of(Spectrum::from_rgb(k.to_array())))?));
         }
         None => keys.reflectance = Some(place.at(plugin.possible(Input::grey(1.0).colour(&place))?)),
     }

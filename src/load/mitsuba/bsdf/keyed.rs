@@ -1,11 +1,10 @@
 //! Values that the modules of BSDFs pass to each other.
 
-use glam::DVec3;
-
 use crate::load::file::colour::Colour;
 use crate::load::file::material::{MaterialEntry, diffuse, pass};
 use crate::load::file::reference::TextureName;
 use crate::load::file::value::{Located, Number};
+use crate::spectrum::Spectrum;
 
 /// The BSDFs within another one.
 #[derive(Debug, Default)]
@@ -73,6 +72,6 @@ pub fn black() -> MaterialEntry {
 
 /// A diffuse grey.
 pub fn grey(reflectance: f64) -> Result<MaterialEntry, String> {
-    let reflectance = Colour::constant(DVec3::splat(reflectance))?;
+    let reflectance = Colour::constant(Spectrum::grey(reflectance))?;
     Ok(MaterialEntry::Diffuse(diffuse::Keys { reflectance, ..Default::default() }))
 }

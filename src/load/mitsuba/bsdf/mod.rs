@@ -11,8 +11,6 @@ mod wrapped;
 
 use std::rc::Rc;
 
-use glam::DVec3;
-
 use self::keyed::{Keyed, Parts, Relief, black, grey, nothing};
 use super::converter::Converter;
 use super::plugin::Plugin;
@@ -22,6 +20,7 @@ use crate::load::file::material::blend_weight::BlendWeightEntry;
 use crate::load::file::material::{MaterialEntry, blend, diffuse as diffuse_entry};
 use crate::load::import::Input;
 use crate::load::place::Place;
+use crate::spectrum::Spectrum;
 
 /// Most BSDFs within each other.
 const DEEPEST: usize = 32;
@@ -74,7 +73,7 @@ impl Converter<'_> {
         }
         let (name, reflectance) = if is_emitter { ("(no bsdf, a lamp)", 0.0) } else { ("(no bsdf)", 0.5) };
         let name = place.at(self.scene.free_material_name(name));
-        let (reflectance, two_sided) = (Colour::constant(DVec3::splat(reflectance))?, Some(place.at(false)));
+        let (reflectance, two_sided) = (Colour::constant(Spectrum::grey(reflectance))?, Some(place.at(false)));
         let keys = diffuse_entry::Keys { name, reflectance, two_sided, ..Default::default() };
         self.scene.file.material.push(MaterialEntry::Diffuse(keys));
         let made = self.scene.file.material.len() - 1;

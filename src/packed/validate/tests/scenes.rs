@@ -14,6 +14,7 @@ use crate::scene::{
     MaterialKind, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene,
     Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, ThrownPicture, Transform,
 };
+use crate::spectrum::Spectrum;
 
 /// By name: walked by kernels, and left to the device. Lights are chosen by a tree in the first, by cells in the second.
 pub fn all() -> Vec<(&'static str, PackedScene)> {
@@ -107,7 +108,7 @@ fn add_instances(scene: &mut Scene) {
 /// Every kind of primitive, material, texture and light; shapes that move, a blend of blends of which one emits, a map and portals.
 fn everything() -> Scene {
     let mut scene = Scene::default();
-    let [a, b] = [DVec3::splat(0.1), DVec3::splat(0.9)];
+    let [a, b] = [Spectrum::grey(0.1), Spectrum::grey(0.9)];
     let picture = |width, wrap, filter| {
         TextureKind::Image(ImageTexture { image: image(width, 2), wrap: [wrap, TextureWrap::Mirror], filter, scale: [2.0, 1.0] })
     };
@@ -126,7 +127,7 @@ fn everything() -> Scene {
     }
     (scene.textures[0].times, scene.textures[3].times) = (Some(5), Some(1));
     let channel =
-        |texture, channel| ColorInput::Channel(ChannelInput { texture, channel, factor: DVec3::splat(0.5), is_squared: false });
+        |texture, channel| ColorInput::Channel(ChannelInput { texture, channel, factor: Spectrum::grey(0.5), is_squared: false });
     let (grey, of) = (ColorInput::grey(0.5), ColorInput::Texture);
     let rough = |facets| MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey, transmittance: grey, thin: false };
     let plastic =
@@ -164,7 +165,7 @@ fn everything() -> Scene {
     let turning = Motion::new(vec![
         MotionStep::Rotate { axis: DVec3::Y, degrees: 40.0 },
         MotionStep::Translate(DVec3::X),
-        MotionStep::Scale(b),
+        MotionStep::Scale(DVec3::splat(0.9)),
     ]);
     let ball = |x: f64| Geometry::Sphere(Sphere { center: DVec3::new(x, 4.0, 0.0), radius: 1.0 });
     let sheet = |z: f64| Geometry::Rectangle(Rectangle { corner: DVec3::new(0.0, 0.0, z), edge_u: DVec3::X, edge_v: DVec3::Y });

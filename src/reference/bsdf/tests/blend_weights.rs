@@ -6,7 +6,7 @@ use crate::scene::{BlendWeight, Texture, TextureKind};
 
 fn at(blend_weight: &BlendWeight, cosine: f64) -> f64 {
     let mut scene = Scene::default();
-    let (a, b) = (DVec3::new(0.2, 0.4, 0.6), DVec3::splat(7.0));
+    let (a, b) = (Spectrum::new(0.2, 0.4, 0.6), Spectrum::grey(7.0));
     scene.textures.push(Texture::new("mask", TextureKind::Checker { a, b, scale: [2.0, 2.0] }));
     // The left lower field is a, its right neighbour b.
     let uv = if cosine < 0.5 { DVec2::new(0.1, 0.1) } else { DVec2::new(0.6, 0.1) };

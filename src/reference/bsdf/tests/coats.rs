@@ -89,7 +89,7 @@ fn coats_make_no_energy() {
         let count = 1 << 13;
         let reflected = |bsdf: &Bsdf| {
             let samples = cube_points(count, 40 + index as u64).filter_map(|[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2));
-            samples.map(|s| (s.weight * s.eta * s.eta).max_element()).sum::<f64>() / f64::from(count)
+            samples.map(|s| (s.weight * s.eta * s.eta).max_component()).sum::<f64>() / f64::from(count)
         };
         let Lobe::Principled(coated) = principled(MATERIALS[index / per_material]) else { panic!("{name}") };
         let base = Lobe::Principled(super::super::principled::Principled { coat: 0.0, ..coated });
@@ -116,6 +116,6 @@ fn smooth_coats_mirror_about_their_own_normals() {
         let sample = drawn(leaning(scale));
         assert!((sample.wi - mirror(bent)).length() < 1e-12 && bent.dot(own) < 0.98, "{sample:?}");
         let fresnel = 0.04 + 0.96 * (1.0 - view.wo.dot(bent)).powi(5);
-        assert!((sample.weight.x - fresnel).abs() < 0.02, "all of the light that it reflects: {sample:?} {fresnel}");
+        assert!((sample.weight.r() - fresnel).abs() < 0.02, "all of the light that it reflects: {sample:?} {fresnel}");
     }
 }

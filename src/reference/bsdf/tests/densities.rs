@@ -87,7 +87,7 @@ fn wrong_densities_are_rejected() {
 /// Lobes that draw directions by one map of (u1, u2) each. With one tint black, glass only reflects or only transmits.
 fn maps() -> Vec<(&'static str, Lobe, f64)> {
     let only = |reflect: bool| {
-        let (on, off) = (DVec3::ONE, DVec3::ZERO);
+        let (on, off) = (Spectrum::WHITE, Spectrum::BLACK);
         let (reflectance, transmittance) = if reflect { (on, off) } else { (off, on) };
         move |ior| Dielectric { ior, reflectance, transmittance }
     };
@@ -141,7 +141,10 @@ fn sampled_weights_are_value_over_density() {
             let Evaluation { value, pdf: evaluated } = bsdf.evaluate(sample.wi);
             compared += 1;
             assert!((pdf / evaluated - 1.0).abs() < 1e-7, "{name}: {sample:?} {evaluated}");
-            assert!((sample.weight - value / pdf).length() <= 1e-7 * sample.weight.length(), "{name}: {sample:?} {value}");
+            assert!(
+                sample.weight.distance(value / pdf) <= 1e-7 * sample.weight.to_vector().length(),
+                "{name}: {sample:?} {value}"
+            );
             assert!((sample.wi.length() - 1.0).abs() < 1e-12, "{name}: {sample:?}");
         }
         assert!(compared > 20, "{name}: {compared}");
@@ -156,15 +159,15 @@ fn mixtures_are_the_sums_of_their_lobes() {
             let view = view(degrees, 10.0);
             let mixture = Bsdf::mixture(view, lobes.clone());
             // The diffuse lobes are one lobe, whose weight is the largest component of their sum.
-            let together: DVec3 = lobes
+            let together: Spectrum = lobes
                 .iter()
-                .map(|(lobe, weight)| if let Lobe::Diffuse(d) = lobe { d.reflectance * *weight } else { DVec3::ZERO })
+                .map(|(lobe, weight)| if let Lobe::Diffuse(d) = lobe { d.reflectance * *weight } else { Spectrum::BLACK })
                 .sum();
             let share = |lobe: &Lobe, weight: f64| match lobe {
                 Lobe::Diffuse(_) => 0.0,
                 _ => weight * lobe.sampling_weight(),
             };
-            let total = together.max_element() + lobes.iter().map(|(lobe, weight)| share(lobe, *weight)).sum::<f64>();
+            let total = together.max_component() + lobes.iter().map(|(lobe, weight)| share(lobe, *weight)).sum::<f64>();
             for [u, v, _] in cube_points(200, 5) {
                 let wi = crate::reference::warp::uniform_sphere(u, v);
                 let mut expected = Evaluation::default();
@@ -173,9 +176,9 @@ fn mixtures_are_the_sums_of_their_lobes() {
                     expected.value += one.value * *weight;
                     expected.pdf += one.pdf * share(lobe, *weight) / total;
                 }
-                expected.pdf += diffuse(DVec3::ONE).evaluate(&view, wi).pdf * together.max_element() / total;
+                expected.pdf += diffuse(Spectrum::WHITE).evaluate(&view, wi).pdf * together.max_component() / total;
                 let found = mixture.evaluate(wi);
-                assert!((found.value - expected.value).length() <= 1e-12 * expected.value.length(), "{name}");
+                assert!(found.value.distance(expected.value) <= 1e-12 * expected.value.to_vector().length(), "{name}");
                 assert!((found.pdf - expected.pdf).abs() <= 1e-12 * expected.pdf, "{name}: {found:?} {expected:?}");
             }
         }
@@ -202,9 +205,9 @@ fn uniform_hemispheres_have_their_own_density_and_the_same_reflectance() {
             let grid =
                 (0..side * side * 8).map(|i| (at(i % side), at(i / side % side), (f64::from(i / (side * side)) + 0.5) / 8.0));
             let weights = grid.filter_map(|(u1, u2, lobe)| bsdf.sample(lobe, u1, u2)).map(|sample| sample.weight);
-            weights.sum::<DVec3>() / f64::from(side * side * 8)
+            weights.sum::<Spectrum>() / f64::from(side * side * 8)
         };
         let (a, b) = (mean(&cosine), mean(&uniform));
-        assert!((a - b).abs().max_element() < 0.02 * a.max_element(), "{a} {b}");
+        assert!((a - b).map(f64::abs).max_component() < 0.02 * a.max_component(), "{a} {b}");
     }
 }

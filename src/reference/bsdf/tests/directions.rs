@@ -29,7 +29,7 @@ fn a_texture_of_one_direction_is_a_rotation() {
     // v grows to either side.
     for along_v in [DVec3::Y, DVec3::NEG_Y] {
         let view = view(50.0, 0.0).with_tangents(Some(Tangents::along(DVec3::new(1.0, 0.3, 0.0), along_v)));
-        let value = |lobe: Lobe, wi: DVec3| lobe.evaluate(&view, wi).value.x;
+        let value = |lobe: Lobe, wi: DVec3| lobe.evaluate(&view, wi).value.r();
         for (angle, length, further) in [(0.0, 1.0, 0.0), (25.0, 1.0, 0.0), (110.0, 0.5, 0.0), (-70.0, 0.8, 35.0)] {
             let direction = DVec2::from_angle(f64::to_radians(angle)) * length;
             let texel = (0.5 * (direction + 1.0)).extend(0.6);

@@ -6,21 +6,21 @@ use crate::scene::LobeSupport;
 
 /// Independent estimates of the radiance that a uniform environment of 1 leaves towards wo.
 fn reflected_radiance(bsdf: &Bsdf, seed: u64) -> [Moments; 3] {
-    estimate(seed, |[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2).map_or(DVec3::ZERO, |sample| sample.weight))
+    estimate(seed, |[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2).map_or(Spectrum::BLACK, |sample| sample.weight))
 }
 
 /// The share of power that a single material scatters: its mean weight with refraction's scaling of radiance,
 /// 1/eta², made good.
 fn albedo(bsdf: &Bsdf, seed: u64) -> [Moments; 3] {
-    estimate(seed, |[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2).map_or(DVec3::ZERO, |s| s.weight * s.eta * s.eta))
+    estimate(seed, |[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2).map_or(Spectrum::BLACK, |s| s.weight * s.eta * s.eta))
 }
 
-fn estimate(seed: u64, weight: impl Fn([f64; 3]) -> DVec3) -> [Moments; 3] {
+fn estimate(seed: u64, weight: impl Fn([f64; 3]) -> Spectrum) -> [Moments; 3] {
     let mut moments = [Moments::default(); 3];
     for replication in 0..16 {
         let count = 4096;
-        let mean = cube_points(count, seed * 16 + replication).map(&weight).sum::<DVec3>() / f64::from(count);
-        moments.iter_mut().zip(mean.to_array()).for_each(|(moments, value)| moments.push(value));
+        let mean = cube_points(count, seed * 16 + replication).map(&weight).sum::<Spectrum>() / f64::from(count);
+        moments.iter_mut().zip(mean.to_rgb()).for_each(|(moments, value)| moments.push(value));
     }
     moments
 }
@@ -52,10 +52,10 @@ fn known_albedos() {
         };
         let cases = [
             (diffuse(orange()), orange()),
-            (mirror(0.8), DVec3::splat(0.8)),
+            (mirror(0.8), Spectrum::grey(0.8)),
             (glass(boundary), boundary.reflectance * fresnel + boundary.transmittance * (1.0 - fresnel)),
             (gold(0.0), gold_reflects),
-            (Lobe::Null(Null), DVec3::ONE),
+            (Lobe::Null(Null), Spectrum::WHITE),
             (thin_glass(boundary), {
                 // F + TFT + TFFFT + …, light going to and fro.
                 let once = dielectric_reflectance(view.wo.z.abs(), 1.5);
@@ -69,9 +69,9 @@ fn known_albedos() {
     }
 }
 
-fn assert_albedo(bsdf: &Bsdf, seed: u64, expected: DVec3, tests: usize) {
+fn assert_albedo(bsdf: &Bsdf, seed: u64, expected: Spectrum, tests: usize) {
     let level = sidak(0.01, 3 * tests);
-    for (moments, expected) in albedo(bsdf, seed).iter().zip(expected.to_array()) {
+    for (moments, expected) in albedo(bsdf, seed).iter().zip(expected.to_rgb()) {
         let rejects = |truth: f64| one_sample_t_test_beyond(moments, truth, 1e-5).p_value < level;
         assert!(!rejects(expected), "{bsdf:?}: {moments:?}, expected {expected}");
         assert!(expected < 0.05 || rejects(1.01 * expected), "1 % more would pass: {bsdf:?} {moments:?}");
@@ -121,8 +121,8 @@ fn scattering_is_reciprocal() {
             let through = wo.z * wi.z < 0.0;
             let index = |w: DVec3| if w.z > 0.0 { 1.0 } else { ior };
             let difference = there / index(wo).powi(2) - back / index(wi).powi(2);
-            assert!(difference.length() <= 1e-9 * there.length(), "{name}: {wo} {wi}: {there} {back}");
-            if there != DVec3::ZERO {
+            assert!(difference.to_vector().length() <= 1e-9 * there.to_vector().length(), "{name}: {wo} {wi}: {there} {back}");
+            if !there.is_black() {
                 *(if through { &mut transmitted } else { &mut reflected }) += 1;
             }
         }
@@ -240,7 +240,7 @@ fn narrow_lobes_meet_the_delta_lobes() {
                 // The few samples on the border between reflection and transmission, or in the distribution's long tail, may differ.
                 let (Some(a), Some(b)) = (a, b) else { continue };
                 if (a.wi - b.wi).length() < 0.05 {
-                    assert!((a.weight - b.weight).length() < 0.02 * b.weight.length(), "{a:?} {b:?}");
+                    assert!(a.weight.distance(b.weight) < 0.02 * b.weight.to_vector().length(), "{a:?} {b:?}");
                 }
             }
             let [a, b] = [albedo(&rough, 2), albedo(&smooth, 3)];

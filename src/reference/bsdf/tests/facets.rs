@@ -83,7 +83,7 @@ fn anisotropy_turns_with_the_tangent() {
         let mut differs = 0;
         for [a, b, _] in cube_points(200, 6) {
             let wi = crate::reference::warp::cosine_hemisphere(a, b);
-            let value = |lobe: &Lobe, view: &View| lobe.evaluate(view, wi).value.x;
+            let value = |lobe: &Lobe, view: &View| lobe.evaluate(view, wi).value.r();
             let round = value(&of(0.4, 0.4, false), &view(50.0, 0.0));
             let turned = along(DVec3::new(0.3, -0.9, 0.5));
             assert!((value(&of(0.4, 0.4, true), &turned) - round).abs() <= 1e-12 * round);
@@ -103,7 +103,7 @@ fn the_narrow_direction_is_the_tangent() {
     let tangents = crate::reference::intersect::Tangents::along(DVec3::X, DVec3::Y);
     let view = View::new(DVec3::Z, DVec3::Z, DVec3::Z).with_tangents(Some(tangents));
     let lobe = white_metal_of(facets);
-    let value = |phi: f64| lobe.evaluate(&view, at_degrees(20.0, phi)).value.x;
+    let value = |phi: f64| lobe.evaluate(&view, at_degrees(20.0, phi)).value.r();
     assert!(value(FRAC_PI_2) > 10.0 * value(0.0));
 }
 
@@ -118,7 +118,7 @@ fn rough_plates_lose_what_metals_lose() {
             let albedo = |lobe: Lobe| {
                 let bsdf = single(lobe, view);
                 let weights =
-                    cube_points(count, 7).filter_map(|[u1, u2, u]| bsdf.sample(u, u1, u2)).map(|sample| sample.weight.x);
+                    cube_points(count, 7).filter_map(|[u1, u2, u]| bsdf.sample(u, u1, u2)).map(|sample| sample.weight.r());
                 weights.sum::<f64>() / f64::from(count)
             };
             let (metal, plate) = (albedo(white_metal_of(facets)), albedo(rough_thin_glass(clear(1.5), facets)));

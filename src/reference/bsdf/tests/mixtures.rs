@@ -95,7 +95,7 @@ fn diffuse_lobes_are_one_lobe_of_the_mean() {
     for (a, b) in blended.into_iter().zip(alone) {
         let (a, b) = (a.expect("Lambert reflects"), b.expect("Lambert reflects"));
         assert_eq!((a.wi, a.density), (b.wi, b.density));
-        assert!((a.weight - b.weight).length() < 1e-15);
+        assert!(a.weight.distance(b.weight) < 1e-15);
     }
 }
 
@@ -118,15 +118,15 @@ fn lobes_are_chosen_in_order_by_weight_times_reflectance() {
         if u < first {
             assert!(sample.density != Density::Delta);
             // Diffuse alone is no delta lobe: its value over its share of the density.
-            assert!((sample.weight.x - 0.25 * 0.6 / first).abs() < 1e-12);
+            assert!((sample.weight.r() - 0.25 * 0.6 / first).abs() < 1e-12);
         } else if u < second {
             assert!((sample.wi - reflected).length() < 1e-12 && sample.density == Density::Delta);
-            assert!((sample.weight.x - 0.5 * 0.8 / (second - first)).abs() < 1e-12);
+            assert!((sample.weight.r() - 0.5 * 0.8 / (second - first)).abs() < 1e-12);
         } else {
             let own = (u - second) / (1.0 - second);
             assert_eq!(sample.wi.z > 0.0, own < fresnel, "{own} {fresnel}");
             let scale = if own < fresnel { 1.0 } else { 1.0 / 2.25 };
-            assert!((sample.weight.x - 0.25 / (1.0 - second) * scale).abs() < 1e-12);
+            assert!((sample.weight.r() - 0.25 / (1.0 - second) * scale).abs() < 1e-12);
         }
     }
 }
@@ -147,7 +147,7 @@ fn picking_takes_one_material_by_its_weight() {
             0.6
         };
         assert_eq!(sample.density == Density::Delta, u < 0.5);
-        assert!((sample.weight.x - expected).abs() < 1e-12, "{u}: {sample:?}");
+        assert!((sample.weight.r() - expected).abs() < 1e-12, "{u}: {sample:?}");
     }
 }
 
@@ -164,7 +164,7 @@ fn parts_that_scatter_nothing_take_no_samples() {
         assert!(black.sample(0.5, 0.5, 0.5).is_none() && !black.has_non_delta_lobe());
     }
     let half = bsdf(&scene(vec![grey(0.8), MaterialKind::Emissive, blend(0, 1, 0.5)], BlendMode::Mixture), 0.5);
-    assert!(samples(&half).into_iter().all(|sample| sample.is_some_and(|sample| (sample.weight.x - 0.4).abs() < 1e-15)));
+    assert!(samples(&half).into_iter().all(|sample| sample.is_some_and(|sample| (sample.weight.r() - 0.4).abs() < 1e-15)));
 }
 
 #[test]
@@ -177,7 +177,7 @@ fn a_pass_part_lets_the_ray_go_on() {
         if sample.is_null {
             passed += 1;
             assert_eq!((sample.wi, sample.density, sample.eta), (-blended.view.wo, Density::Delta, 1.0));
-            assert!((sample.weight.x - 0.25 / share).abs() < 1e-12);
+            assert!((sample.weight.r() - 0.25 / share).abs() < 1e-12);
         }
     }
     assert!((f64::from(passed) - 1000.0 * share).abs() < 1.0, "{passed}");
@@ -195,13 +195,13 @@ fn emission_is_blended() {
     scene.materials[1].emission = emission(2.0, true);
     scene.materials[4].emission = emission(1.0, false);
     let surface = surface(&scene);
-    let from = |degrees: f64| emitted(&scene, &surface, at_degrees(degrees, 1.0)).x;
+    let from = |degrees: f64| emitted(&scene, &surface, at_degrees(degrees, 1.0)).r();
     assert!((from(20.0) - (0.125 * 8.0 + 0.375 * 2.0 + 1.0)).abs() < 1e-12);
     assert!((from(170.0) - 0.375 * 2.0).abs() < 1e-12);
     assert!((mean_exitance(&scene, 4) - 2.0 * PI * 2.75).abs() < 1e-12);
     assert_eq!(mean_exitance(&scene, 3), 0.0);
     // Seen at an angle, a facing weight dims it.
     scene.materials[4].kind = MaterialKind::Blend { materials: [0, 3], weight: BlendWeight::Facing { power: 1.0 } };
-    assert!((emitted(&scene, &surface, at_degrees(60.0, 1.0)).x - 5.0).abs() < 1e-12);
+    assert!((emitted(&scene, &surface, at_degrees(60.0, 1.0)).r() - 5.0).abs() < 1e-12);
     assert!((mean_exitance(&scene, 4) - PI * 5.0).abs() < 1e-12);
 }

@@ -43,6 +43,7 @@ use crate::reference::intersect::Surface;
 use crate::scene::{
     ColorInput, HemisphereSampling, LobeKind, Masking, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Scene,
 };
+use crate::spectrum::Spectrum;
 
 /// A unit vector at an angle from +z, in degrees.
 fn at_degrees(theta: f64, phi: f64) -> DVec3 {
@@ -59,30 +60,30 @@ fn single(lobe: Lobe, view: View) -> Bsdf {
     Bsdf::mixture(view, [(lobe, 1.0)])
 }
 
-fn diffuse(reflectance: DVec3) -> Lobe {
+fn diffuse(reflectance: Spectrum) -> Lobe {
     Lobe::Diffuse(Diffuse { reflectance })
 }
 
-fn orange() -> DVec3 {
-    DVec3::new(0.9, 0.5, 0.1)
+fn orange() -> Spectrum {
+    Spectrum::new(0.9, 0.5, 0.1)
 }
 
 fn mirror(reflectance: f64) -> Lobe {
-    Lobe::Mirror(Mirror { reflectance: DVec3::splat(reflectance) })
+    Lobe::Mirror(Mirror { reflectance: Spectrum::grey(reflectance) })
 }
 
 fn glossy(exponent: f64) -> Lobe {
-    Lobe::Glossy(Glossy { reflectance: DVec3::new(0.4, 0.9, 0.6), exponent })
+    Lobe::Glossy(Glossy { reflectance: Spectrum::new(0.4, 0.9, 0.6), exponent })
 }
 
 fn phong(diffuse: f64, specular: f64, exponent: f64) -> Lobe {
-    Lobe::Phong(Phong { diffuse: orange() * diffuse, specular: DVec3::splat(specular), exponent })
+    Lobe::Phong(Phong { diffuse: orange() * diffuse, specular: Spectrum::grey(specular), exponent })
 }
 
 /// Gold at about 630, 530 and 465 nm.
 fn gold(alpha: f64) -> Lobe {
-    let fresnel = Fresnel::Complex { eta: DVec3::new(0.18, 0.42, 1.37), k: DVec3::new(3.42, 2.35, 1.77) };
-    Lobe::Conductor(Conductor { fresnel, facets: Facets::ggx(alpha), tint: DVec3::ONE })
+    let fresnel = Fresnel::Complex { eta: Spectrum::new(0.18, 0.42, 1.37), k: Spectrum::new(3.42, 2.35, 1.77) };
+    Lobe::Conductor(Conductor { fresnel, facets: Facets::ggx(alpha), tint: Spectrum::WHITE })
 }
 
 /// A metal that reflects everything.
@@ -91,15 +92,15 @@ fn white_metal(alpha: f64) -> Lobe {
 }
 
 fn white_metal_of(facets: Facets) -> Lobe {
-    Lobe::Conductor(Conductor { fresnel: Fresnel::Schlick(DVec3::ONE), facets, tint: DVec3::ONE })
+    Lobe::Conductor(Conductor { fresnel: Fresnel::Schlick(Spectrum::WHITE), facets, tint: Spectrum::WHITE })
 }
 
 fn clear(ior: f64) -> Dielectric {
-    Dielectric { ior, reflectance: DVec3::ONE, transmittance: DVec3::ONE }
+    Dielectric { ior, reflectance: Spectrum::WHITE, transmittance: Spectrum::WHITE }
 }
 
 fn tinted(ior: f64) -> Dielectric {
-    Dielectric { ior, reflectance: DVec3::new(0.9, 0.2, 0.0), transmittance: DVec3::new(0.1, 0.8, 0.5) }
+    Dielectric { ior, reflectance: Spectrum::new(0.9, 0.2, 0.0), transmittance: Spectrum::new(0.1, 0.8, 0.5) }
 }
 
 fn glass(dielectric: Dielectric) -> Lobe {
@@ -119,10 +120,10 @@ fn rough_thin_glass(dielectric: Dielectric, facets: Facets) -> Lobe {
 }
 
 /// Plastic whose surface reflects by Fresnel's equations alone.
-fn plastic(interface: PlasticInterface, reflectance: DVec3, nonlinear: bool) -> Lobe {
+fn plastic(interface: PlasticInterface, reflectance: Spectrum, nonlinear: bool) -> Lobe {
     let base = Base {
         reflectance,
-        specular: DVec3::ONE,
+        specular: Spectrum::WHITE,
         ior: interface.ior,
         internal_reflectance: interface.internal_reflectance(),
         nonlinear,
@@ -204,7 +205,7 @@ fn delta_lobes() -> Vec<(String, Lobe, f64)> {
 /// Weighted lobes: non-delta with non-delta, non-delta with delta, delta with delta, and what nested blends come to.
 fn mixtures() -> Vec<(&'static str, Vec<(Lobe, f64)>)> {
     vec![
-        ("two diffuse", vec![(diffuse(orange()), 0.3), (diffuse(DVec3::splat(0.2)), 0.7)]),
+        ("two diffuse", vec![(diffuse(orange()), 0.3), (diffuse(Spectrum::grey(0.2)), 0.7)]),
         ("diffuse and glossy", vec![(diffuse(orange()), 0.6), (glossy(40.0), 0.4)]),
         ("diffuse and mirror", vec![(diffuse(orange()), 0.5), (mirror(1.0), 0.5)]),
         ("mirror and glass", vec![(mirror(0.9), 0.4), (glass(clear(1.5)), 0.6)]),
@@ -217,7 +218,7 @@ fn mixtures() -> Vec<(&'static str, Vec<(Lobe, f64)>)> {
                 (phong(0.3, 0.3, 12.0), 0.15),
                 (Lobe::Null(Null), 0.05),
                 (rough_glass(tinted(1.3), 0.5), 0.2),
-                (diffuse(DVec3::splat(0.3)), 0.1),
+                (diffuse(Spectrum::grey(0.3)), 0.1),
                 (phong_glass(clear(1.5), 9.0), 0.2),
             ],
         ),

@@ -8,10 +8,10 @@ fn rough(alpha: f64) -> PlasticInterface {
 }
 
 /// ∫ value dω by samples spread evenly, each channel.
-fn albedo(lobe: Lobe, view: View) -> DVec3 {
+fn albedo(lobe: Lobe, view: View) -> Spectrum {
     let count = 100_000;
     let bsdf = single(lobe, view);
-    cube_points(count, 5).filter_map(|[u1, u2, u]| bsdf.sample(u, u1, u2)).map(|sample| sample.weight).sum::<DVec3>()
+    cube_points(count, 5).filter_map(|[u1, u2, u]| bsdf.sample(u, u1, u2)).map(|sample| sample.weight).sum::<Spectrum>()
         / f64::from(count)
 }
 
@@ -40,14 +40,19 @@ fn smooth_plastic_has_its_known_albedo() {
         for degrees in [0.0, 40.0, 75.0, 86.0, 140.0] {
             let view = view(degrees, 0.0);
             let fresnel = dielectric_reflectance(view.wo.z.abs(), ior);
-            let expected = |base: DVec3| DVec3::splat(fresnel) + base * (1.0 - fresnel);
-            for (nonlinear, base) in [(false, orange()), (true, orange() * (1.0 - internal) / (DVec3::ONE - orange() * internal))]
+            let expected = |base: Spectrum| Spectrum::grey(fresnel) + base * (1.0 - fresnel);
+            for (nonlinear, base) in
+                [(false, orange()), (true, orange() * (1.0 - internal) / (Spectrum::WHITE - orange() * internal))]
             {
                 let found = albedo(plastic(interface.clone(), orange(), nonlinear), view);
-                assert!((found - expected(base)).abs().max_element() < 1e-3, "{ior} at {degrees}: {found} {}", expected(base));
+                assert!(
+                    (found - expected(base)).map(f64::abs).max_component() < 1e-3,
+                    "{ior} at {degrees}: {found} {}",
+                    expected(base)
+                );
             }
-            let white = albedo(plastic(interface.clone(), DVec3::ONE, true), view);
-            assert!((white - DVec3::ONE).abs().max_element() < 1e-3, "{white}");
+            let white = albedo(plastic(interface.clone(), Spectrum::WHITE, true), view);
+            assert!((white - Spectrum::WHITE).map(f64::abs).max_component() < 1e-3, "{white}");
         }
     }
 }
@@ -65,9 +70,9 @@ fn the_table_of_rough_plastic_is_what_rough_glass_transmits() {
             for node in [63, 40, 12, 3] {
                 let degrees = (node as f64 / 63.0).acos().to_degrees();
                 let facets = Facets { alpha: DVec2::splat(alpha), distribution, masking, anisotropic: false };
-                let dielectric = Dielectric { reflectance: DVec3::ZERO, ..clear(1.5) };
+                let dielectric = Dielectric { reflectance: Spectrum::BLACK, ..clear(1.5) };
                 // Undoes the scaling of radiance.
-                let transmitted = 2.25 * albedo(Lobe::RoughGlass(RoughGlass { dielectric, facets }), view(degrees, 0.0)).x;
+                let transmitted = 2.25 * albedo(Lobe::RoughGlass(RoughGlass { dielectric, facets }), view(degrees, 0.0)).r();
                 let found = f64::from(table[node]);
                 assert!((found - transmitted).abs() < 2e-3, "{distribution:?} {alpha} at {degrees}: {found} {transmitted}");
             }
@@ -83,7 +88,7 @@ fn narrow_rough_plastic_is_smooth_plastic() {
     for degrees in [5.0, 45.0, 70.0] {
         let [a, b] =
             [narrow.clone(), smooth.clone()].map(|interface| albedo(plastic(interface, orange(), true), view(degrees, 0.0)));
-        assert!((a - b).abs().max_element() < 3e-3, "{degrees}: {a} {b}");
+        assert!((a - b).map(f64::abs).max_component() < 3e-3, "{degrees}: {a} {b}");
     }
 }
 
@@ -93,7 +98,7 @@ fn white_rough_plastic_makes_no_energy() {
     for alpha in [0.05, 0.2, 0.5, 1.0] {
         for nonlinear in [false, true] {
             for degrees in [0.0, 50.0, 80.0, 88.0] {
-                let found = albedo(plastic(rough(alpha), DVec3::ONE, nonlinear), view(degrees, 0.0)).x;
+                let found = albedo(plastic(rough(alpha), Spectrum::WHITE, nonlinear), view(degrees, 0.0)).r();
                 println!("{alpha} at {degrees}: {found}");
                 assert!(found < 1.0 + 1e-3, "{alpha} at {degrees}: {found}");
             }

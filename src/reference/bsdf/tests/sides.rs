@@ -24,7 +24,7 @@ fn reflected(material: usize, mode: BlendMode) -> [f64; 2] {
         let count = 4096;
         let weight = |[a, b, c]: [f64; 3]| {
             let bsdf = Bsdf::new(&scene, &surface, at_degrees(degrees, 1.0), (7.3 * a + b).fract());
-            bsdf.sample(c, a, b).map_or(0.0, |sample| sample.weight.x)
+            bsdf.sample(c, a, b).map_or(0.0, |sample| sample.weight.r())
         };
         cube_points(count, 3).map(weight).sum::<f64>() / f64::from(count)
     })

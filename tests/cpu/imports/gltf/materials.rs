@@ -21,9 +21,9 @@ fn sheen_and_volumes_are_read() {
         json!({ "sheenColorFactor": [0.5, 0.25, 1.0], "sheenRoughnessFactor": 0.75 }),
         json!({ "thicknessFactor": 1.0, "attenuationColor": [1.0, 0.5, 0.0], "attenuationDistance": 2.5 }),
     );
-    assert_eq!(written.sheen_color, ColorInput::Constant(DVec3::new(0.5, 0.25, 1.0)));
+    assert_eq!(written.sheen_color, ColorInput::Constant(Spectrum::new(0.5, 0.25, 1.0)));
     assert_eq!(written.sheen_roughness, ColorInput::grey(0.75));
-    assert_eq!(written.attenuation, Some(Attenuation { color: DVec3::new(1.0, 0.5, 0.0), distance: 2.5 }));
+    assert_eq!(written.attenuation, Some(Attenuation { color: Spectrum::new(1.0, 0.5, 0.0), distance: 2.5 }));
     let plain = material(json!({}), json!({ "thicknessFactor": 1.0, "attenuationColor": [0.5, 0.5, 0.5] }));
     assert_eq!((plain.sheen_color, plain.attenuation, plain.thin), (ColorInput::grey(0.0), None, false));
 }
@@ -82,7 +82,7 @@ fn directions_of_anisotropy_are_read() {
     let texture = json!({ "anisotropyStrength": 0.75, "anisotropyRotation": 0.5, "anisotropyTexture": { "index": 0 } });
     let (textured, turned) = brushed(texture);
     let direction = textured.anisotropy_direction.expect("it has a direction");
-    let strength = ChannelInput { texture: direction, channel: Channel::B, factor: DVec3::splat(0.75), is_squared: false };
+    let strength = ChannelInput { texture: direction, channel: Channel::B, factor: Spectrum::grey(0.75), is_squared: false };
     assert_eq!(textured.anisotropy, Some(ColorInput::Channel(strength)));
     assert!((textured.anisotropy_rotation_degrees - 0.5_f64.to_degrees()).abs() < 1e-12);
     assert!(plain != turned, "the pictures are alike");
@@ -125,7 +125,7 @@ fn variants_of_materials_are_chosen_by_name() {
     let of =
         |variant: &str| folder.load_as("a.gltf", &LoadOptions { variant: Some(variant.to_owned()), ..LoadOptions::default() });
     let red_of = |scene: Scene| match scene.materials[scene.shapes[0].material].kind {
-        MaterialKind::Diffuse { reflectance: gpt::scene::ColorInput::Constant(colour) } => colour.x,
+        MaterialKind::Diffuse { reflectance: gpt::scene::ColorInput::Constant(colour) } => colour.r(),
         ref other => panic!("{other:?}"),
     };
     assert_eq!(of("new").map(red_of).ok(), Some(0.1));

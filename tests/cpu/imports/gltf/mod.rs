@@ -9,9 +9,9 @@ mod tangents;
 mod textures;
 
 use base64::Engine as _;
-use glam::DVec3;
 use gpt::load::LoadOptions;
 use gpt::scene::{Attenuation, Channel, ChannelInput, ColorInput, Geometry, Light, MaterialKind, Mesh, Projection, Scene};
+use gpt::spectrum::Spectrum;
 use serde_json::{Value, json};
 
 use super::{Folder, picture, refusal, report};
@@ -248,7 +248,7 @@ fn lights_shine_along_their_nodes() {
     let Light::Spot(spot) = &scene.lights[0] else { panic!("no spot") };
     assert_eq!((spot.direction, spot.position), (glam::DVec3::NEG_Z, glam::DVec3::new(1.0, 2.0, 3.0)));
     file.root["nodes"][2]["extensions"]["KHR_lights_punctual"]["light"] = json!(1);
-    assert!(matches!(&file.read().lights[0], Light::Directional(light) if light.irradiance.x == 3.0));
+    assert!(matches!(&file.read().lights[0], Light::Directional(light) if light.irradiance.r() == 3.0));
     file.root["nodes"][2]["extensions"]["KHR_lights_punctual"]["light"] = json!(2);
     let message = report_or_refusal(&file);
     assert!(message.contains("light of type `area`"), "{message}");

@@ -98,8 +98,8 @@ fn pictures_that_cannot_be_read_have_stand_ins() {
             gpt::scene::TextureKind::Image(ref image) => image.mean(),
             ref other => other.mean(),
         };
-        let colours: Vec<DVec3> = (0..scene.textures.len()).map(colour).collect();
-        for expected in [DVec3::new(1.0, 0.0, 1.0), DVec3::ONE, DVec3::new(0.5, 0.5, 1.0)] {
+        let colours: Vec<Spectrum> = (0..scene.textures.len()).map(colour).collect();
+        for expected in [Spectrum::new(1.0, 0.0, 1.0), Spectrum::WHITE, Spectrum::new(0.5, 0.5, 1.0)] {
             assert!(colours.iter().any(|colour| colour.distance(expected) < 1e-4), "{what}: {colours:?}");
         }
         assert!(scene.warnings.iter().any(|warning| warning.contains("stands for it")), "{what}: {:?}", scene.warnings);
@@ -134,9 +134,9 @@ fn specular_and_glossiness_take_the_place_of_metal_and_roughness() {
     );
     let reflected = |ior: f64| ((ior - 1.0) / (ior + 1.0)).powi(2);
     let ColorInput::Constant(specular) = made.specular_color else { panic!("{:?}", made.specular_color) };
-    assert_eq!((made.base_color, made.roughness), (ColorInput::Constant(DVec3::new(0.5, 0.25, 0.1)), ColorInput::grey(0.25)));
+    assert_eq!((made.base_color, made.roughness), (ColorInput::Constant(Spectrum::new(0.5, 0.25, 0.1)), ColorInput::grey(0.25)));
     assert_eq!(made.metallic, ColorInput::grey(0.0));
-    assert!((specular * reflected(made.ior) - DVec3::new(0.2, 0.3, 0.4)).length() < 1e-9, "{specular} {}", made.ior);
+    assert!((specular * reflected(made.ior)).distance(Spectrum::new(0.2, 0.3, 0.4)) < 1e-9, "{specular} {}", made.ior);
     let made = glossy(&mut file, json!({}));
     assert_eq!((made.base_color, made.roughness), (ColorInput::grey(1.0), ColorInput::grey(0.0)));
     // Alpha of the texture is glossiness.
@@ -149,7 +149,7 @@ fn specular_and_glossiness_take_the_place_of_metal_and_roughness() {
     let texture = made.roughness.texture().expect("a texture");
     let gpt::scene::TextureKind::Image(image) = &file.read().textures[texture].kind else { panic!("no image") };
     // 1 − 0.5 · 102/255
-    assert!((image.mean().x - 0.8).abs() < 2e-3, "{}", image.mean());
+    assert!((image.mean().r() - 0.8).abs() < 2e-3, "{}", image.mean());
 }
 
 /// An index of refraction of 0 stands for a surface that reflects all that its specular colour says.
@@ -162,7 +162,7 @@ fn an_index_of_nothing_reflects_everything() {
         let scene = file.read();
         let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("no principled") };
         let ColorInput::Constant(colour) = principled.specular_color else { panic!("no colour") };
-        (((principled.ior - 1.0) / (principled.ior + 1.0)).powi(2) * colour.x, report(&scene))
+        (((principled.ior - 1.0) / (principled.ior + 1.0)).powi(2) * colour.r(), report(&scene))
     };
     for (ior, expected, is_told) in
         [(0.0, 0.5, false), (1.5, 0.02, false), (1.0, 0.0, false), (0.5, 0.0, true), (39.0, 0.45125, true)]

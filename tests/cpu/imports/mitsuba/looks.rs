@@ -111,7 +111,7 @@ fn bumps_and_thrown_pictures_are_exact() {
     let Light::Projector(projector) = &scene.lights[2] else { panic!("no projector") };
     assert!(
         (projector.vertical_fov_degrees - 30.0).abs() < 1e-9
-            && (projector.irradiance.x - 2.0 * std::f64::consts::PI).abs() < 1e-12
+            && (projector.irradiance.r() - 2.0 * std::f64::consts::PI).abs() < 1e-12
     );
     let bumpy = scene.materials.iter().filter_map(|material| material.normal_map).next().expect("a map");
     assert_eq!(scene.textures[bumpy].relief, gpt::scene::Relief::Heights(0.1));
@@ -133,7 +133,7 @@ fn checkerboards_of_numbers_are_the_other_way_round() {
     ] {
         let scene = read(&format!(r#"<shape type="rectangle">{bsdf}</shape>"#));
         let TextureKind::Checker { a, .. } = scene.textures[0].kind else { panic!("no checker") };
-        assert_eq!(a.x, first, "{bsdf}");
+        assert_eq!(a.r(), first, "{bsdf}");
     }
 }
 

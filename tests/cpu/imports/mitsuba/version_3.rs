@@ -1,6 +1,7 @@
 //! Rules of Mitsuba's version 3 that differ from what one would guess, or from its versions before 2.
 
 use gpt::scene::{Camera, EnvironmentRadiance, Geometry, Light, MaterialKind, Texture, TextureKind};
+use gpt::spectrum::Spectrum;
 use gpt::{DeviceChoice, RenderOptions};
 
 use super::super::{Folder, picture, report};
@@ -127,7 +128,7 @@ fn spectra_of_lights_keep_their_colour() {
         let scene = folder(&seen(&format!(r#"<emitter type="constant">{radiance}</emitter>"#))).valid("a.xml");
         let Light::Environment(environment) = &scene.lights[0] else { panic!("no environment") };
         let EnvironmentRadiance::Constant(found) = environment.radiance else { panic!("a map") };
-        let off = (found - glam::DVec3::from(expected)).abs().max_element();
+        let off = (found - Spectrum::from_rgb(expected)).map(f64::abs).max_component();
         assert!(off < 1e-6, "{radiance}: {found}");
     }
     let surface = r#"<shape type="rectangle"><bsdf type="diffuse"><spectrum name="reflectance" value="0.25"/></bsdf></shape>"#;
