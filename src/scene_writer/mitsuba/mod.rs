@@ -14,8 +14,8 @@ use toml::Table;
 
 use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
 use self::xml::{Element, Xml};
-use super::WrittenScene;
 use super::scene_file::scene_text;
+use super::written_scene::WrittenScene;
 use crate::load::SceneError;
 use crate::load::file::writer::SideFiles;
 use crate::scene::{ImportReport, Scene};

@@ -1,6 +1,6 @@
-//! What the modules of BSDFs hand to each other.
+//! Types and materials that the modules of BSDFs share.
 
-use crate::load::file::material::MaterialEntry;
+use crate::load::file::material::{MaterialEntry, diffuse, pass};
 use crate::load::file::reference::TextureName;
 use crate::load::file::value::{Located, Number};
 
@@ -57,3 +57,13 @@ pub fn with_relief(mut entry: MaterialEntry, relief: Relief) -> MaterialEntry {
 
 /// A material without a name, and whether both sides count.
 pub type Keyed = (MaterialEntry, bool);
+
+/// A surface that lets all light pass.
+pub fn nothing() -> MaterialEntry {
+    MaterialEntry::Pass(pass::Keys::default())
+}
+
+/// A surface that reflects nothing: the reflectance of a diffuse surface is 0 where none is set.
+pub fn black() -> MaterialEntry {
+    MaterialEntry::Diffuse(diffuse::Keys::default())
+}

@@ -13,13 +13,13 @@ use std::rc::Rc;
 
 use glam::DVec3;
 
-use self::keyed::{Keyed, Parts, Relief};
+use self::keyed::{Keyed, Parts, Relief, black, nothing};
 use super::converter::Converter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::material::blend_weight::BlendWeightEntry;
-use crate::load::file::material::{MaterialEntry, blend, diffuse as diffuse_entry, pass};
+use crate::load::file::material::{MaterialEntry, blend, diffuse as diffuse_entry};
 use crate::load::import::Input;
 use crate::load::place::Place;
 
@@ -195,15 +195,6 @@ impl Converter<'_> {
         self.scene.file.material.push(entry);
         name
     }
-}
-
-fn nothing() -> MaterialEntry {
-    MaterialEntry::Pass(pass::Keys::default())
-}
-
-/// Reflects nothing: the reflectance of a diffuse surface is 0 where none is set.
-fn black() -> MaterialEntry {
-    MaterialEntry::Diffuse(diffuse_entry::Keys::default())
 }
 
 fn grey(reflectance: f64) -> Result<MaterialEntry, String> {

@@ -4,9 +4,8 @@ use std::rc::Rc;
 
 use glam::DVec3;
 
-use super::keyed::{Keyed, Parts, with_relief};
+use super::keyed::{Keyed, Parts, black, nothing, with_relief};
 use super::principled::weight;
-use super::{black, nothing};
 use crate::load::error::SceneError;
 use crate::load::file::material::blend_weight::{BlendWeightEntry, NoKeys};
 use crate::load::file::material::{MaterialEntry, blend as blend_entry};
