@@ -93,7 +93,7 @@ mod tests {
     |                ^^^^^
   3 | look_at = [0,
 
-Error: test.toml:3:11: camera.look_at: invalid length 2, expected an array of length 3
+Error: test.toml:3:11: camera.look_at: wrong number of values: 2, expected an array of length 3
     |
   2 |     position = \"ß中\"    
   3 | look_at = [0,

@@ -40,10 +40,10 @@ impl<'a> Document<'a> {
         Self { tree: Arc::default(), ..self }
     }
 
-    /// Reads the text into a type of which any part may be missing.
+    /// Reads the text into the types of what is written.
     ///
     /// # Errors
-    /// The first mistake of each table and of each entry of a list.
+    /// All mistakes of the text, as [`reader::mistakes`] finds them.
     pub fn read_whole<T: DeserializeOwned>(&self) -> Result<T, SceneError> {
         self.check_version()?;
         self.read().map_err(|first| self.all_mistakes::<T>(first))
@@ -65,25 +65,11 @@ impl<'a> Document<'a> {
     }
 
     /// All that keeps the text from being read; `first` is what the whole text was refused for.
-    fn all_mistakes<Part: DeserializeOwned>(&self, first: SceneError) -> SceneError {
-        let Ok(root) = self.root() else { return first };
-        let mut parts = Vec::new();
-        for (key, value) in root {
-            match value.get_ref() {
-                DeValue::Array(entries) => {
-                    parts.extend(entries.iter().enumerate().map(|(index, entry)| (entry.span().start, key, Some(index))));
-                }
-                _ => parts.push((value.span().start, key, None)),
-            }
-        }
-        // In the order of the file, and no more than are told.
-        parts.sort_by_key(|(at, ..)| *at);
-        let mistakes = parts.into_iter().filter_map(|(_, key, entry)| {
-            reader::read_part::<Part>(root, key.get_ref(), entry).map_err(|mistake| self.translate(mistake)).err()
-        });
-        let mut found: Vec<SceneError> = mistakes.take(MOST_ERRORS).collect();
-        found.push(first.clone());
-        SceneError::of_all(found).unwrap_or(first)
+    fn all_mistakes<T: DeserializeOwned>(&self, first: SceneError) -> SceneError {
+        let Ok(root) = self.parsed() else { return first };
+        // To find the key of a mistake takes as long as the text is: no more mistakes are translated than are told.
+        let mistakes = reader::mistakes::<T>(root).into_iter().take(MOST_ERRORS);
+        SceneError::of_all(mistakes.map(|mistake| self.translate(mistake)).collect()).unwrap_or(first)
     }
 
     /// An error about what is stated at a place.

@@ -4,6 +4,7 @@ mod camera;
 mod geometry;
 mod keys;
 mod numbers;
+mod several;
 mod textures;
 
 use std::sync::LazyLock;

@@ -10,4 +10,4 @@ mod tree;
 
 pub use located::located;
 pub use mistake::Mistake;
-pub use tree::{Node, read, read_part};
+pub use tree::{Node, mistakes, read};

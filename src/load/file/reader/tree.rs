@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use serde::de::value::StrDeserializer;
 use serde::de::{
-    Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, Expected, IntoDeserializer, MapAccess, SeqAccess, Unexpected,
-    VariantAccess, Visitor,
+    Deserialize, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error, Expected, IntoDeserializer, MapAccess,
+    SeqAccess, Unexpected, VariantAccess, Visitor,
 };
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -21,34 +21,93 @@ pub type Node<'t> = Spanned<DeValue<'t>>;
 
 /// Reads the whole tree.
 pub fn read<'t, T: Deserialize<'t>>(root: &'t Node<'t>) -> Result<T, Mistake> {
-    T::deserialize(Reader { node: root, view: View::Whole })
+    T::deserialize(Reader { node: root, view: View::default() })
 }
 
-/// Reads one key of a table as if there were no other; of its list one entry, where one is meant.
-pub fn read_part<'t, T: Deserialize<'t>>(table: &'t DeTable<'t>, key: &str, entry: Option<usize>) -> Result<T, Mistake> {
-    T::deserialize(Part(Entries {
-        entries: Source::One(table.get_key_value(key)),
-        without: None,
-        value: None,
-        view: entry.map_or(View::Whole, View::Only),
-    }))
+/// All mistakes in the tree, in the order of the text. A key that is missing is one of them where its table has no others: a misspelt
+/// key is missing as well.
+pub fn mistakes<T: DeserializeOwned>(root: &Node<'_>) -> Vec<Mistake> {
+    let mut search = Search { root, path: Vec::new(), around: Vec::new(), found: Vec::new() };
+    search.collect::<T>(root);
+    search.found.sort_by_key(|mistake| mistake.span.as_ref().map(|span| span.start));
+    search.found
+}
+
+/// A search for all mistakes. Serde reports the first one that it meets, so each value that is refused is read again part by part.
+struct Search<'t> {
+    root: &'t Node<'t>,
+    path: Vec<Step<'t>>,
+    /// The bytes of the values that the path leads through.
+    around: Vec<Range<usize>>,
+    found: Vec<Mistake>,
+}
+
+impl<'t> Search<'t> {
+    /// Finds the mistakes of the value at the end of the path.
+    fn collect<T: DeserializeOwned>(&mut self, node: &'t Node<'t>) {
+        let view = View { path: &self.path, without: None };
+        let Err(mistake) = T::deserialize(Reader { node: self.root, view }) else { return };
+        // A table of which one key is read lacks the others.
+        if mistake.span.as_ref().is_some_and(|span| self.around.contains(span)) {
+            return;
+        }
+        let earlier = self.found.len();
+        self.around.push(node.span());
+        match node.get_ref() {
+            DeValue::Table(table) => {
+                for (key, value) in table {
+                    self.step::<T>(Step::Key(key.get_ref()), value);
+                }
+            }
+            // Only tables stand in lists of any length whose entries are read alike.
+            DeValue::Array(list) if list.iter().all(|entry| matches!(entry.get_ref(), DeValue::Table(_))) => {
+                for (index, entry) in list.iter().enumerate() {
+                    self.step::<T>(Step::Entry(index), entry);
+                }
+            }
+            _ => {}
+        }
+        self.around.pop();
+        if !self.found[earlier..].contains(&mistake) {
+            self.found.push(mistake);
+        }
+    }
+
+    fn step<T: DeserializeOwned>(&mut self, step: Step<'t>, node: &'t Node<'t>) {
+        self.path.push(step);
+        self.collect::<T>(node);
+        self.path.pop();
+    }
+}
+
+/// One step from a value into it.
+#[derive(Clone, Copy)]
+enum Step<'t> {
+    Key(&'t str),
+    Entry(usize),
 }
 
 /// How much of a value there is to be read.
-#[derive(Clone, Copy)]
-enum View {
-    Whole,
-    /// A table without a key that was read already.
-    Without(&'static str),
-    /// A list of only one of its entries.
-    Only(usize),
+#[derive(Clone, Copy, Default)]
+struct View<'t> {
+    /// The only part of the value that is read; the whole value where the path is empty.
+    path: &'t [Step<'t>],
+    /// A key of the table that was read already.
+    without: Option<&'static str>,
+}
+
+impl View<'_> {
+    /// The view of the part to which the path's first step leads.
+    fn inner(self) -> Self {
+        Self { path: self.path.get(1..).unwrap_or_default(), without: None }
+    }
 }
 
 /// Reads one value.
 #[derive(Clone, Copy)]
 struct Reader<'t> {
     node: &'t Node<'t>,
-    view: View,
+    view: View<'t>,
 }
 
 impl<'t> Reader<'t> {
@@ -58,12 +117,19 @@ impl<'t> Reader<'t> {
     }
 
     fn entries(self, table: &'t DeTable<'t>) -> Entries<'t> {
-        let without = if let View::Without(key) = self.view { Some(key) } else { None };
-        Entries { entries: Source::All(table.iter()), without, value: None, view: View::Whole }
+        let entries = match self.view.path.first() {
+            Some(Step::Key(key)) => Source::One(table.get_key_value(*key)),
+            _ => Source::All(table.iter()),
+        };
+        Entries { entries, without: self.view.without, value: None, view: self.view.inner() }
     }
 
     fn items(self, list: &'t [Node<'t>]) -> Items<'t> {
-        Items(if let View::Only(entry) = self.view { list[entry..=entry].iter() } else { list.iter() })
+        let items = match self.view.path.first() {
+            Some(Step::Entry(entry)) => &list[*entry..=*entry],
+            _ => list,
+        };
+        Items { items: items.iter(), view: self.view.inner() }
     }
 
     fn number(self) -> Result<Number, Mistake> {
@@ -117,7 +183,7 @@ impl<'t> Reader<'t> {
         let DeValue::Table(table) = found else {
             return Err(Mistake::new(span, format!("expected a table with the key `{tag}`, found {}", found.type_str())));
         };
-        let content = Some(Self { node: self.node, view: View::Without(tag) });
+        let content = Some(Self { node: self.node, view: View { without: Some(tag), ..self.view } });
         match table.get(tag) {
             None => Err(Mistake::without_kind(tag, kinds).within(span)),
             Some(kind) => match kind.get_ref() {
@@ -263,7 +329,7 @@ struct Entries<'t> {
     without: Option<&'static str>,
     /// The value of the key that was read last, and how much of it there is.
     value: Option<&'t Node<'t>>,
-    view: View,
+    view: View<'t>,
 }
 
 enum Source<'t> {
@@ -274,9 +340,10 @@ enum Source<'t> {
 impl<'t> Entries<'t> {
     fn next(&mut self) -> Option<&'t Spanned<DeString<'t>>> {
         let without = self.without;
+        let is_read = |key: &Spanned<DeString<'_>>| without.is_none_or(|without| key.get_ref() != without);
         let (key, value) = match &mut self.entries {
-            Source::All(entries) => entries.find(|(key, _)| without.is_none_or(|without| key.get_ref() != without)),
-            Source::One(entry) => entry.take(),
+            Source::All(entries) => entries.find(|(key, _)| is_read(key)),
+            Source::One(entry) => entry.take().filter(|(key, _)| is_read(key)),
         }?;
         self.value = Some(value);
         Some(key)
@@ -298,35 +365,22 @@ impl<'t> MapAccess<'t> for Entries<'t> {
     }
 }
 
-/// A table of which one key is read.
-struct Part<'t>(Entries<'t>);
-
-impl<'t> Deserializer<'t> for Part<'t> {
-    type Error = Mistake;
-
-    fn deserialize_any<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
-        visitor.visit_map(self.0)
-    }
-
-    serde::forward_to_deserialize_any! {
-        <V: Visitor<'t>>
-        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf option unit unit_struct newtype_struct seq tuple tuple_struct
-        map struct enum identifier ignored_any
-    }
-}
-
 /// The values of a list.
-struct Items<'t>(std::slice::Iter<'t, Node<'t>>);
+struct Items<'t> {
+    items: std::slice::Iter<'t, Node<'t>>,
+    view: View<'t>,
+}
 
 impl<'t> SeqAccess<'t> for Items<'t> {
     type Error = Mistake;
 
     fn next_element_seed<S: DeserializeSeed<'t>>(&mut self, seed: S) -> Result<Option<S::Value>, Mistake> {
-        self.0.next().map(|node| Reader { node, view: View::Whole }.read(seed)).transpose()
+        let view = self.view;
+        self.items.next().map(|node| Reader { node, view }.read(seed)).transpose()
     }
 
     fn size_hint(&self) -> Option<usize> {
-        Some(self.0.len())
+        Some(self.items.len())
     }
 }
 
