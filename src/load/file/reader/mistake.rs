@@ -8,7 +8,7 @@ use serde::de::{Error, Expected, Unexpected};
 use crate::load::file::suggestion::{did_you_mean, list_of};
 
 /// A mistake in a value in the words of scene files, and the bytes of the value.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub struct Mistake {
     pub message: String,
     /// A hint at the right input.
