@@ -2,6 +2,7 @@
 //!
 //! Other files that it reads, such as textures of a scene, are known once it has read the scene, and are checked then ([`check_unread`]).
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use gpt::load::FileLog;
@@ -29,18 +30,13 @@ pub fn check<'a>(outputs: impl IntoIterator<Item = &'a Path>, inputs: impl IntoI
             return Err(OutputError::Input { path: path.to_path_buf() }.into());
         }
     }
-    outputs.into_iter().filter(|path| !is_stdout(path)).try_for_each(check_place)
-}
-
-/// Checks that this file can be written, and removes from its folder what killed processes left there.
-///
-/// # Errors
-/// A missing folder, or a folder or device in its place.
-pub fn check_place(path: &Path) -> Result<(), Failure> {
-    check_target(path)?;
-    if let Ok(target) = follow_links(path) {
-        remove_left_over(folder_of(&target));
+    let mut folders = BTreeSet::new();
+    for path in outputs.into_iter().filter(|path| !is_stdout(path)) {
+        check_target(path)?;
+        folders.extend(follow_links(path).ok().map(|target| folder_of(&target).to_owned()));
     }
+    // Killed processes may have left something there.
+    folders.iter().for_each(|folder| remove_left_over(folder));
     Ok(())
 }
 

@@ -118,7 +118,7 @@ fn scene(
         for (ending, format) in [("exr", PictureFormat::Exr), ("png", PictureFormat::Png)] {
             let number = frames.first_number().map_or("", |_| ".####");
             let default = PathBuf::from(format!("{}{number}.{ending}", scene.name));
-            outputs::check_place(&first(&default))?;
+            outputs::check([first(&default).as_path()], None)?;
             outputs.push((default, format));
         }
     }

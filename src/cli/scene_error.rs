@@ -54,7 +54,8 @@ impl Drawing {
         let mut start = 0;
         for (line, number) in text.split('\n').zip(*first_line..) {
             let end = start + line.len();
-            drawn += &format!("{} {}\n", gutter(&number.to_string()), expanded(line));
+            drawn += format!("{} {}", gutter(&number.to_string()), expanded(line)).trim_end();
+            drawn.push('\n');
             let wrong = span.start.max(start)..span.end.min(end);
             // A span of several lines has the line end of each, which is not marked by itself.
             if !wrong.is_empty() || (span.is_empty() && wrong.start == wrong.end) {
@@ -107,10 +108,16 @@ Error: test.toml:11:8: material[0].type: `difuse` is not a valid choice
  10 | name = \"a\"
  11 | type = \"difuse\"
     |        ^^^^^^^^
- 12 | 
+ 12 |
  help: did you mean `diffuse`?";
         let drawn = drawn_of(text);
         assert!(drawn.starts_with(expected), "{drawn}");
+    }
+
+    #[test]
+    fn tabs_and_wide_characters_keep_carets_in_place() {
+        let drawn = drawn_of("[camera]\n\tposition = \"ß中\"\t\nlook_at = [0,0,0]\nvfov = 40");
+        assert!(drawn.contains("\n 2 |     position = \"ß中\"\n   |                ^^^^^\n 3 | look_at"), "{drawn}");
     }
 
     #[test]
