@@ -42,12 +42,12 @@ material = \"b\"
         (7, "camera.vfov", "expected an angle from 0.001 to 179"),
         (8, "camera.fov", "unknown key `fov`"),
         (10, "material[0].name", "invalid type: array"),
-        (12, "material[0].reflectance", "invalid type: string \"red\""),
+        (12, "material[0].reflectance", "expected a colour such as"),
         (15, "shape[0].radius", "invalid type: table"),
         (16, "shape[0].material", "invalid type: integer `3`"),
         (19, "material[1].type", "`difuse` is not a valid choice"),
         (20, "material[2]", "the key `type` is missing"),
-        (22, "shape[1]", "the key `radius` is missing"),
+        (22, "shape[1]", "the key `center` is missing"),
     ];
     let is_expected = |((line, key, message), (at, of, start)): (&(usize, &str, &str), &(usize, &str, &str))| {
         (line, key) == (at, of) && message.starts_with(start)
