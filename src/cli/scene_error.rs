@@ -88,20 +88,20 @@ mod tests {
     fn the_lines_of_all_mistakes_are_shown() {
         let text = "[camera]\n\tposition = \"ß中\"\t\nlook_at = [0,\n 0]\nvfov = 40\n\n\n\n[[material]]\nname = \"a\"\ntype = \"difuse\"\n";
         let expected = "Error: test.toml:2:13: camera.position: invalid type: string \"ß中\", expected an array of length 3
-    |
-  1 | [camera]
-  2 |     position = \"ß中\"    
-    |                ^^^^^
-  3 | look_at = [0,
+   |
+ 1 | [camera]
+ 2 |     position = \"ß中\"
+   |                ^^^^^
+ 3 | look_at = [0,
 
 Error: test.toml:3:11: camera.look_at: wrong number of values: 2, expected an array of length 3
-    |
-  2 |     position = \"ß中\"    
-  3 | look_at = [0,
-    |           ^^^
-  4 |  0]
-    | ^^^
-  5 | vfov = 40
+   |
+ 2 |     position = \"ß中\"
+ 3 | look_at = [0,
+   |           ^^^
+ 4 |  0]
+   | ^^^
+ 5 | vfov = 40
 
 Error: test.toml:11:8: material[0].type: `difuse` is not a valid choice
     |
