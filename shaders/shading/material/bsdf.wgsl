@@ -1,9 +1,7 @@
 // The scattering of light by a surface, whatever its material is made of: load, evaluate, sample.
-#import core/spectrum.wgsl
 #import shading/texture/normal_shadowing.wgsl
 #export shading/material/blend.wgsl
 #import shading/material/scattering.wgsl
-#import shading/material/seen.wgsl
 #import shading/surface.wgsl
 #if MIXTURE
 #export shading/material/mixture.wgsl
