@@ -7,8 +7,10 @@
 // The tangents by the first or the second coordinates; shapes with one set have those of that. `first` may be
 // NONE.
 fn tangents_of_set(kind: u32, first: u32, point: ShapePoint, by_second: bool) -> Tangents {
-    if HAS_SECOND_UVS && by_second && first != NONE && kind == KIND_TRIANGLE {
+#if SECOND_UVS
+    if by_second && first != NONE && kind == KIND_TRIANGLE {
         return edge_tangents(first + 1u, point.along_u, point.along_v);
     }
+#endif
     return shape_tangents(kind, first, point);
 }
