@@ -86,8 +86,14 @@ mod platform {
             wanted.push(SIGHUP);
         }
         let mut signals = Signals::new(wanted)?;
-        let watch = move || signals.forever().for_each(handle);
+        let (started, has_started) = std::sync::mpsc::channel();
+        let watch = move || {
+            let _ = started.send(());
+            signals.forever().for_each(handle);
+        };
         thread::Builder::new().name("signals".to_owned()).spawn(watch)?;
+        // A thread takes memory as it starts, and ends the process where it finds none: it is to have it before anything else takes it.
+        let _ = has_started.recv();
         Ok(())
     }
 

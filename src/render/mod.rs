@@ -2,7 +2,7 @@
 //!
 //! - `scene`, [`options`], [`stream`], [`image`]: what users of the crate see.
 //! - [`checkpoint`]: states of a render in a file, from which another goes on.
-//! - [`choice`]: which device renders. [`layers`]: what is rendered beside the picture. [`cryptomatte`]: mattes of objects and materials.
+//! - [`layers`]: what is rendered beside the picture. [`cryptomatte`]: mattes of objects and materials.
 //! - [`stats`]: what a render did, for other programs.
 //! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise. [`error_estimate`]: how far a picture is from the truth.
 

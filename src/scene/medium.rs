@@ -90,7 +90,8 @@ mod tests {
     use crate::load::load_toml_str;
 
     fn media(materials: &str) -> (Scene, Media) {
-        let scene = format!("[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[environment]\nradiance = 1\n{materials}");
+        let scene =
+            format!("[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[environment]\nradiance = 1\n{materials}");
         let scene = load_toml_str(&scene, "media", std::path::Path::new("")).expect("a scene");
         let media = Media::of(&scene);
         (scene, media)

@@ -3,7 +3,7 @@
 //! A file is included once, where it is first imported; lines that `enable` an extension go to the front, where WGSL wants them. Switches
 //! and constants come from the plan, so that a scene's kernels hold only what the scene uses; what their entry points do not reach is left
 //! out ([`super::reach`]). Code may also read the switch `X` as a constant, `HAS_X`. A statement `if HAS_X { … }` costs no more than `#if`,
-//! since its block is left out where the switch is off ([`super::fold`]), and reads better.
+//! since its block is left out where the switch is off (`fold.rs`), and reads better.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};

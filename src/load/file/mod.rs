@@ -1,4 +1,4 @@
-//! Scene files: from TOML text to a [`Scene`].
+//! Scene files: from TOML text to a [`Scene`](crate::scene::Scene).
 //!
 //! `document` reads the text into the types of `syntax`, which know every key and range; `resolve` looks up names and reads the
 //! files that are named. Each complains about the place where the mistake is written.

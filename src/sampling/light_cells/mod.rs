@@ -2,7 +2,7 @@
 //! that do not reach most of its surfaces, or are much stronger there than elsewhere: many lamps behind walls, or a lamp and a window.
 //!
 //! Space is cut into cells, by position and by which way a surface faces. Each cell has a list of slots, every slot as likely as any other, that
-//! name the lights found to reach it ([`crate::learn::light_cells`]): a light that brings more has more of them. A fixed share of the
+//! name the lights found to reach it ([`crate::learn`]): a light that brings more has more of them. A fixed share of the
 //! choices is made by power among all lights, so that every light has a probability above 0 everywhere, whatever was learned. The probability
 //! of a light is that of both ways together. 32 random bits choose by integers alone, so devices that round differently choose another
 //! light only where a point lies on the border of two cells. `shaders/shading/light/choice/cells.wgsl` is the device's half.
