@@ -63,7 +63,7 @@ impl PictureSource {
         }
     }
 
-    /// What a written scene says of the picture.
+    /// The source by which a written scene names the picture.
     pub fn to_source(&self, color_space: Option<ColorSpace>) -> ImageSource {
         let embedded = if let Self::Embedded(file) = self { Some(file.bytes.clone()) } else { None };
         ImageSource { path: self.name().to_owned(), embedded, color_space, scale: 1.0 }

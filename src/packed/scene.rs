@@ -59,7 +59,7 @@ impl PackedScene {
     /// Packs a scene for kernels that walk a bounding volume hierarchy.
     ///
     /// # Errors
-    /// Those of [`PackedScene::for_traversal`].
+    /// The errors of [`PackedScene::for_traversal`].
     pub fn new(scene: &Scene) -> Result<Self, PackError> {
         Self::for_traversal(scene, Traversal::Bvh)
     }
@@ -76,7 +76,7 @@ impl PackedScene {
     /// fit; those of this frame replace them.
     ///
     /// # Errors
-    /// Those of [`PackedScene::for_traversal`].
+    /// The errors of [`PackedScene::for_traversal`].
     pub fn for_frame(scene: &Scene, traversal: Traversal, kept: &mut KeptTrees) -> Result<Self, PackError> {
         for shape in &scene.shapes {
             let fail = |(_, message)| PackError::Motion { shape: shape.label.clone(), message };

@@ -50,12 +50,14 @@ pub fn parameters_wgsl() -> String {
             };
             fields += &format!("    {}: {type_name},\n", parameter.name);
             let default = parameter.default.unwrap_or("0.0");
-            values.push(format!("        further_parameter(lobe, {place}u, vec3<f32>({default})){part}"));
+            // A kernel has room for as many as some material of its scene has.
+            let found = format!("further[min({place}u, MOST_FURTHER - 1u)]");
+            values.push(format!("        select(vec3<f32>({default}), {found}, lobe.further_count > {place}u){part}"));
         }
         let (file, values) = (lobe.file(), values.join(",\n"));
         text +=
             &format!("\nstruct {lobe:?}Parameters {{\n{fields}}}\n\nfn {file}_parameters(lobe: Lobe) -> {lobe:?}Parameters {{\n");
-        text += &format!("    return {lobe:?}Parameters(\n{values}\n    );\n}}\n");
+        text += &format!("    let further = lobe.further;\n    return {lobe:?}Parameters(\n{values}\n    );\n}}\n");
     }
     text
 }

@@ -24,7 +24,7 @@ pub enum Over {
     Paths,
     /// The pixels of a pass.
     Pixels,
-    /// The same pixels; where [invocations take them](Plan::pixel_takers), a workgroup for each thread of the
+    /// The pixels of a pass; where [invocations take them](Plan::pixel_takers), a workgroup for each thread of the
     /// device.
     PixelsThatAreTaken,
     /// Nothing: one workgroup of one invocation.

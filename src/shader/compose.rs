@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use super::fold::{Line, SWITCH_PREFIX, folded};
+use super::fold::{Line, SWITCH_PREFIX, folded, without_comment};
 use super::switches;
 
 /// Compile-time choices: which `#if`s hold, and constants that are declared before the first line.
@@ -101,8 +101,9 @@ pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader
 
 /// The switches that a line of code reads as constants.
 fn switches_read(line: &str) -> impl Iterator<Item = &str> {
-    let code = line.split("//").next().unwrap_or_default();
-    code.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter_map(|word| word.strip_prefix(SWITCH_PREFIX))
+    without_comment(line)
+        .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .filter_map(|word| word.strip_prefix(SWITCH_PREFIX))
 }
 
 /// The embedded text, or that of the same file in the folder that `GPT_SHADERS` names: for work on kernels without compiling Rust.
@@ -135,7 +136,8 @@ impl Composer<'_> {
 
     fn push_all(&mut self, file: &'static str, lines: Vec<Line<'_>>) {
         // A name in a block that is left out has to be that of a switch as well.
-        self.read.extend(lines.iter().flat_map(|(_, line)| switches_read(line)).map(str::to_owned));
+        let reading = lines.iter().filter(|(_, line)| line.contains(SWITCH_PREFIX));
+        self.read.extend(reading.flat_map(|(_, line)| switches_read(line)).map(str::to_owned));
         for (number, line) in folded(&lines, &self.switches.enabled) {
             self.push(file, number, &line);
         }

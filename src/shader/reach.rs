@@ -1,15 +1,16 @@
 //! Leaves out of a kernel the functions, types, constants and bindings that its entry points do not reach, so that a file may import another one
 //! for what it needs of it under some switches, and costs nothing under the others.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::HashMap;
+
+use super::fold::without_comment;
 
 /// A declaration at the top level of WGSL text, with the comment in front of it.
 struct Item<'a> {
     /// Its lines, counted from 0, the last one excluded.
     lines: std::ops::Range<usize>,
+    /// None: the declaration has no name, as an assertion.
     name: Option<&'a str>,
-    /// The words of its code.
-    words: BTreeSet<&'a str>,
     is_entry: bool,
 }
 
@@ -17,54 +18,61 @@ struct Item<'a> {
 pub fn reached_lines(text: &str) -> Vec<bool> {
     let lines: Vec<&str> = text.lines().collect();
     let items = items(&lines);
-    let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    for (index, item) in items.iter().enumerate() {
-        by_name.entry(item.name.unwrap_or_default()).or_default().push(index);
-    }
     if !items.iter().any(|item| item.is_entry) {
         return vec![true; lines.len()];
     }
-    // Assertions hold of every kernel, so what they are about is there.
-    let mut pending: Vec<usize> =
-        (0..items.len()).filter(|&index| items[index].is_entry || items[index].name.is_none()).collect();
-    let mut reached = vec![false; items.len()];
-    while let Some(index) = pending.pop() {
-        if !std::mem::replace(&mut reached[index], true) {
-            pending.extend(items[index].words.iter().filter_map(|word| by_name.get(word)).flatten());
-        }
+    let mut by_name: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (index, name) in items.iter().enumerate().filter_map(|(index, item)| Some((index, item.name?))) {
+        by_name.entry(name).or_default().push(index);
     }
+    // Assertions hold of every kernel, so what they are about is there.
+    let is_root = |item: &Item<'_>| item.is_entry || item.name.is_none();
+    let mut pending: Vec<usize> = (0..items.len()).filter(|&index| is_root(&items[index])).collect();
     let mut kept = vec![false; lines.len()];
-    for (item, reached) in items.iter().zip(reached) {
-        kept[item.lines.clone()].fill(reached);
+    while let Some(index) = pending.pop() {
+        let own = items[index].lines.clone();
+        kept[own.clone()].fill(true);
+        // A name leads to its declaration once.
+        pending.extend(
+            lines[own].iter().flat_map(|line| words(without_comment(line))).filter_map(|word| by_name.remove(word)).flatten(),
+        );
     }
     kept
 }
 
+fn words(code: &str) -> impl Iterator<Item = &str> {
+    code.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
+}
+
 fn items<'a>(lines: &[&'a str]) -> Vec<Item<'a>> {
     let mut items = Vec::new();
-    let (mut first, mut depth, mut words) = (0, 0, Vec::new());
+    let (mut first, mut depth) = (0, 0_usize);
     for (index, line) in lines.iter().enumerate() {
-        let code = line.split("//").next().unwrap_or_default().trim_end();
-        words.extend(code.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty()));
-        depth += code.matches(['{', '(', '[']).count();
-        depth -= code.matches(['}', ')', ']']).count().min(depth);
+        let code = without_comment(line).trim_end();
+        for byte in code.bytes() {
+            match byte {
+                b'{' | b'(' | b'[' => depth += 1,
+                b'}' | b')' | b']' => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+        }
         if depth == 0 && code.ends_with(['}', ';']) {
-            items.push(item(first..index + 1, std::mem::take(&mut words)));
+            items.push(item(lines, first..index + 1));
             first = index + 1;
         }
     }
-    items.push(item(first..lines.len(), words));
+    items.push(item(lines, first..lines.len()));
     items
 }
 
-fn item(lines: std::ops::Range<usize>, words: Vec<&str>) -> Item<'_> {
-    const NAMED: [&str; 5] = ["fn", "struct", "const", "alias", "override"];
+fn item<'a>(lines: &[&'a str], own: std::ops::Range<usize>) -> Item<'a> {
+    const NAMED: [&str; 6] = ["fn", "struct", "const", "alias", "override", "var"];
     // A variable's name follows the words of its address space and access.
-    const OF_VARIABLES: [&str; 7] = ["var", "private", "workgroup", "uniform", "storage", "read", "read_write"];
-    let start = words.iter().position(|word| NAMED.contains(word) || *word == "var");
-    let name = start.and_then(|start| words[start + 1..].iter().find(|word| !OF_VARIABLES.contains(word))).copied();
-    let is_entry = words.first() == Some(&"compute");
-    Item { lines, name, words: words.into_iter().collect(), is_entry }
+    const OF_VARIABLES: [&str; 6] = ["private", "workgroup", "uniform", "storage", "read", "read_write"];
+    let mut words = lines[own.clone()].iter().flat_map(|line| words(without_comment(line))).peekable();
+    let is_entry = words.peek() == Some(&"compute");
+    let name = words.skip_while(|word| !NAMED.contains(word)).skip(1).find(|word| !OF_VARIABLES.contains(word));
+    Item { lines: own, name, is_entry }
 }
 
 #[cfg(test)]

@@ -22,15 +22,6 @@ struct Lobe {
     coat_by_second: bool,
 }
 
-// A further parameter; `otherwise` if the lobe has none.
-fn further_parameter(lobe: Lobe, index: u32, otherwise: vec3<f32>) -> vec3<f32> {
-    if !HAS_FURTHER_PARAMETERS || index >= lobe.further_count {
-        return otherwise;
-    }
-    var further = lobe.further;
-    return further[index];
-}
-
 fn load_further(lobe: ptr<function, Lobe>, material: u32, uv: TextureCoordinates) {
     let run = bitcast<u32>(tables[material * MATERIAL_WORDS + 4u].w);
     let first = FIRST_FURTHER_WORD + (run & ((1u << FURTHER_SHIFT) - 1u));

@@ -51,7 +51,7 @@ fn with_normal_maps(scene: &Description) -> HashSet<String> {
 /// The parts of a mesh, each with whether it was turned over.
 type MeshParts = Vec<(Arc<Mesh>, bool)>;
 
-/// What was turned over before: meshes' parts by their addresses, materials and textures by their names.
+/// Parts that were turned over before: meshes' parts by their addresses, materials and textures by their names.
 #[derive(Default)]
 struct Turned {
     /// The handedness of meshes at rest and of those that a mirror shows.

@@ -6,7 +6,7 @@ use std::path::Path;
 /// Openings of fragments.
 const OPENINGS: [&str; 8] = ["Of ", "What ", "Where ", "The same ", "As ", "Those ", "Whether ", "It "];
 /// Comments in `src` and `shaders` that begin so. The number only falls.
-const MOST: usize = 6;
+const MOST: usize = 0;
 /// A count this far below means that `MOST` is to be lowered.
 const SLACK: usize = 10;
 
