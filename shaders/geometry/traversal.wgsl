@@ -101,11 +101,9 @@ fn leave_instance(traversal: ptr<function, Traversal>) {
 // Tests one primitive.
 fn test_primitive(traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>, primitive: u32) {
     let words = primitive_words(primitive);
-    if HAS_INSTANCES {
-        if is_instance(words) {
-            enter_instance(traversal, stack, instance_number(words));
-            return;
-        }
+    if HAS_INSTANCES && is_instance(words) {
+        enter_instance(traversal, stack, instance_number(words));
+        return;
     }
     var hit = (*traversal).hit;
     intersect_stored((*traversal).ray, primitive, words, &hit);

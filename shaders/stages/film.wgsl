@@ -163,10 +163,8 @@ fn store_film_pixel(pixel_in_band: u32, pixel: FilmPixel) {
     if pixel.refused > 0u {
         count_refused_samples(pixel.refused);
     }
-    if HAS_CLAMP {
-        if pixel.clamped > 0u {
-            // CLAMP_UNITS and MOST_CLAMP_UNITS.
-            count_clamped_samples(pixel.clamped, u32(min(pixel.taken / bitcast<f32>(CLAMP_BITS) * 1024.0, 4.0e9)));
-        }
+    if HAS_CLAMP && pixel.clamped > 0u {
+        // CLAMP_UNITS and MOST_CLAMP_UNITS.
+        count_clamped_samples(pixel.clamped, u32(min(pixel.taken / bitcast<f32>(CLAMP_BITS) * 1024.0, 4.0e9)));
     }
 }

@@ -298,23 +298,23 @@ impl Integrator {
         let mut ray = Ray { origin: surface.point.leave_towards(light.wi), direction: light.wi };
         visitor.round_ray(&mut ray, Some(&surface.point));
         visitor.ray(&ray);
-        let unstopped = self.unstopped(ray, &light, &path.time);
-        let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
         let medium = path.stack.towards(&self.media, surface, view.front, light.wi).innermost();
-        let contribution = unshadowed * unstopped * transmittance(&self.media, medium, light.distance);
+        let through = self.shadow_transmittance(ray, &light, medium, &path.time);
+        let contribution = path.throughput * scattering.value * light.radiance * (weight / light.pdf) * through;
         path.radiance += contribution;
         if V::COMPARES {
             visitor.unguided(guided.unguided(light.wi, Density::SolidAngle(scattering.pdf)));
         }
-        visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: unstopped > 0.0, contribution });
+        visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: !through.is_black(), contribution });
     }
 
-    /// The share of a sample's light that comes through everything between the origin of its shadow ray and
-    /// the light.
-    fn unstopped(&self, shadow_ray: Ray, light: &LightSample, time: &PathTime) -> f64 {
-        let share = |surface: &Surface| null_weight(&self.scene, surface, -shadow_ray.direction);
+    /// The share of a sample's light that comes along its shadow ray: through all surfaces on the way, and through the medium where the ray
+    /// begins. Boundaries of media let no shadow ray through, so it stays in that one.
+    fn shadow_transmittance(&self, ray: Ray, light: &LightSample, medium: usize, time: &PathTime) -> Spectrum {
+        let share = |surface: &Surface| null_weight(&self.scene, surface, -ray.direction);
         let lets_through = |material: MaterialId| self.lights.lets_through(material);
-        self.world.transmittance(shadow_ray, light.distance, light.target, time, lets_through, share)
+        let through_surfaces = self.world.transmittance(ray, light.distance, light.target, time, lets_through, share);
+        transmittance(&self.media, medium, light.distance) * through_surfaces
     }
 
     /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves

@@ -11,10 +11,8 @@
 fn sample_portal(light: u32, reference: vec3<f32>, u: f32, v: f32) -> vec3<f32> {
     let l1 = light_word(light, 1u);
     let kind = bitcast<u32>(light_word(light, 0u).x) >> PORTAL_SHIFT;
-    if HAS_SPHERE_LIGHTS {
-        if kind == KIND_SPHERE {
-            return sphere_cone_sample(reference, l1.xyz, l1.w, WHITE, true, 1.0, u, v).wi;
-        }
+    if HAS_SPHERE_LIGHTS && kind == KIND_SPHERE {
+        return sphere_cone_sample(reference, l1.xyz, l1.w, WHITE, true, 1.0, u, v).wi;
     }
     let to_point = sample_shape(kind, l1.xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz, u, v).position - reference;
     return to_point / max(length(to_point), 1.0e-30);

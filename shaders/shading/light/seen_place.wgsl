@@ -20,14 +20,12 @@ fn draw_seen_place(light: u32, kind_flags: u32, reference: vec3<f32>, u: f32, v:
     let corner = light_word(light, 1u).xyz;
     let edge_u = light_word(light, 2u).xyz;
     let edge_v = light_word(light, 3u).xyz;
-    if HAS_TRIANGLES_BY_SOLID_ANGLE {
-        if (kind_flags & 255u) == KIND_TRIANGLE {
-            let seen = see_triangle(reference, corner, edge_u, edge_v);
-            if seen.solid_angle > 0.0 {
-                place = SeenPlace(triangle_numbers(seen, edge_u, edge_v, u, v), seen.solid_angle);
-            }
-            return place;
+    if HAS_TRIANGLES_BY_SOLID_ANGLE && (kind_flags & 255u) == KIND_TRIANGLE {
+        let seen = see_triangle(reference, corner, edge_u, edge_v);
+        if seen.solid_angle > 0.0 {
+            place = SeenPlace(triangle_numbers(seen, edge_u, edge_v, u, v), seen.solid_angle);
         }
+        return place;
     }
 #if RECTANGLES_BY_SOLID_ANGLE
     let seen = see_rectangle(reference, corner, edge_u, edge_v);
@@ -47,10 +45,8 @@ fn drawn_solid_angle(light: u32, reference: vec3<f32>) -> f32 {
     let corner = light_word(light, 1u).xyz;
     let edge_u = light_word(light, 2u).xyz;
     let edge_v = light_word(light, 3u).xyz;
-    if HAS_TRIANGLES_BY_SOLID_ANGLE {
-        if (kind_flags & 255u) == KIND_TRIANGLE {
-            return see_triangle(reference, corner, edge_u, edge_v).solid_angle;
-        }
+    if HAS_TRIANGLES_BY_SOLID_ANGLE && (kind_flags & 255u) == KIND_TRIANGLE {
+        return see_triangle(reference, corner, edge_u, edge_v).solid_angle;
     }
     if HAS_RECTANGLES_BY_SOLID_ANGLE {
         return see_rectangle(reference, corner, edge_u, edge_v).solid_angle;

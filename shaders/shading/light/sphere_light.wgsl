@@ -90,12 +90,10 @@ fn sphere_point_sample(
     let height = 1.0 - 2.0 * u;
     let sine = sqrt(max(0.0, (1.0 - height) * (1.0 + height)));
     var normal = vec3<f32>(sine * circle.y, sine * circle.x, height);
-    if HAS_SPHERE_LIGHTS_VISIBLE_HALF {
-        if outside {
-            let sine_of_half = sqrt(max(0.0, (1.0 - u) * (1.0 + u)));
-            let frame = frame_from_normal(to_reference / sqrt(reference_distance2));
-            normal = frame_to_world(frame, vec3<f32>(sine_of_half * circle.y, sine_of_half * circle.x, u));
-        }
+    if HAS_SPHERE_LIGHTS_VISIBLE_HALF && outside {
+        let sine_of_half = sqrt(max(0.0, (1.0 - u) * (1.0 + u)));
+        let frame = frame_from_normal(to_reference / sqrt(reference_distance2));
+        normal = frame_to_world(frame, vec3<f32>(sine_of_half * circle.y, sine_of_half * circle.x, u));
     }
     return sphere_sample_of_point(reference, center, radius, normal, radiance, two_sided, pmf, sphere_sampled_area(radius, outside));
 }

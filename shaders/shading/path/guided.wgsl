@@ -63,10 +63,8 @@ fn scatter_guided(
     if by_guide && !is_open {
         return shadowed(Scattering(light_value, no_sample()), surface, light_wi);
     }
-    if HAS_MORE_LOBES {
-        if !by_guide {
-            drawn = mixed_sample(draw, draw_value);
-        }
+    if HAS_MORE_LOBES && !by_guide {
+        drawn = mixed_sample(draw, draw_value);
     }
     if !by_guide && drawn.pdf_solid_angle < 0.0 {
         // The guide leaves delta lobes to the BSDF.

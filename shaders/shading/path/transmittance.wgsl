@@ -14,10 +14,8 @@
 // instances consist of triangles, which are crossed once.
 fn crossed_again(ray: Ray, hit: Hit, limit: f32) -> Hit {
     var again = no_hit(limit);
-    if HAS_INSTANCES {
-        if hit.instance != NONE {
-            return again;
-        }
+    if HAS_INSTANCES && hit.instance != NONE {
+        return again;
     }
 #if MOTION
     let placed = placed_primitive(primitive_words(hit.primitive));

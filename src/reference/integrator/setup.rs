@@ -128,9 +128,11 @@ impl Integrator {
         if cosine <= 0.0 {
             return [0.0; 2];
         }
-        let unstopped = self.unstopped(Ray { origin: from.point, direction: sample.wi }, &sample, &time);
+        let ray = Ray { origin: from.point, direction: sample.wi };
+        let through = self.shadow_transmittance(ray, &sample, 0, &time);
         let free = sample.radiance.luminance() * cosine / sample.pdf;
-        [free, free * unstopped]
+        // Surfaces let as much of every channel through.
+        [free, free * through.max_component()]
     }
 
     /// How lights are chosen.

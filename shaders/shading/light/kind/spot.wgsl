@@ -26,11 +26,9 @@ fn spot_step(t: f32, kind_and_flags: u32) -> f32 {
 fn spot_falloff(wi: vec3<f32>, axis: vec3<f32>, limits: vec2<f32>, kind_and_flags: u32) -> f32 {
     let apart = wi + axis;
     var from_axis = 0.5 * dot(apart, apart);
-    if HAS_SPOT_FALLOFFS {
-        if ((kind_and_flags >> LIGHT_FORM_SHIFT) & 3u) == SPOT_FALLOFF_LINEAR {
-            let half_sine2 = min(0.5 * from_axis, 1.0);
-            from_axis = 2.0 * atan2_turns(sqrt(half_sine2), sqrt(1.0 - half_sine2));
-        }
+    if HAS_SPOT_FALLOFFS && ((kind_and_flags >> LIGHT_FORM_SHIFT) & 3u) == SPOT_FALLOFF_LINEAR {
+        let half_sine2 = min(0.5 * from_axis, 1.0);
+        from_axis = 2.0 * atan2_turns(sqrt(half_sine2), sqrt(1.0 - half_sine2));
     }
     if from_axis <= limits.y {
         return 1.0;
@@ -60,11 +58,9 @@ fn sample_spot_light(light: u32, reference: vec3<f32>, pmf: f32) -> LightSample 
     if texture != NONE && falloff > 0.0 {
         // The picture fills the square around the cone.
         var outer = word3.x;
-        if HAS_SPOT_FALLOFFS {
-            if ((bitcast<u32>(light_word(light, 0u).x) >> LIGHT_FORM_SHIFT) & 3u) == SPOT_FALLOFF_LINEAR {
-                let half_sine = sin_cos_turns(0.5 * outer).x;
-                outer = 2.0 * half_sine * half_sine;
-            }
+        if HAS_SPOT_FALLOFFS && ((bitcast<u32>(light_word(light, 0u).x) >> LIGHT_FORM_SHIFT) & 3u) == SPOT_FALLOFF_LINEAR {
+            let half_sine = sin_cos_turns(0.5 * outer).x;
+            outer = 2.0 * half_sine * half_sine;
         }
         let half_inverse_tangent = 0.5 * (1.0 - outer) / sqrt(outer * (2.0 - outer));
         let place = picture_place(wi, word2.xyz, vec2<f32>(word3.z, word1.w));
