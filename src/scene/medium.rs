@@ -91,7 +91,7 @@ mod tests {
 
     fn media(materials: &str) -> (Scene, Media) {
         let scene =
-            format!("[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[environment]\nradiance = 1\n{materials}");
+            format!("[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = 'environment'\nradiance = 1\n{materials}");
         let scene = load_toml_str(&scene, "media", std::path::Path::new("")).expect("a scene");
         let media = Media::of(&scene);
         (scene, media)

@@ -26,8 +26,8 @@ impl Importer<'_> {
         let light =
             <Light as serde::Deserialize>::deserialize(light).map_err(|error| format!("{NAME}.lights[{number}]: {error}"))?;
         let key = format!("nodes[{index}]");
-        let stated = DVec3::from(light.color.unwrap_or([1.0; 3])) * light.intensity.unwrap_or(1.0);
-        let colour = stated.max(DVec3::ZERO);
+        let stated = Spectrum::from_rgb(light.color.unwrap_or([1.0; 3])) * light.intensity.unwrap_or(1.0);
+        let colour = stated.max(Spectrum::BLACK);
         if !stated.is_finite() {
             return Err(format!("{NAME}.lights[{number}]: its light is out of range"));
         }
@@ -40,8 +40,7 @@ impl Importer<'_> {
         let direction = world_direction(&map, DVec3::NEG_Z).ok_or("its transform leaves no direction")?;
         let place = self.place(&key);
         let position = Exactly::of(map.translation.to_array())?;
-        let (direction, strength) =
-            (place.at(Exactly::of(direction.to_array())?), Rgb::of(Spectrum::from_rgb(colour.to_array()))?);
+        let (direction, strength) = (place.at(Exactly::of(direction.to_array())?), Rgb::of(colour)?);
         let entry = match light.r#type.as_str() {
             "point" => {
                 LightEntry::Point(point::Keys { position, intensity: strength, keyframes: None, interpolation: None, node: None })

@@ -2,7 +2,7 @@
 
 mod see_through;
 
-use glam::{DAffine2, DVec3};
+use glam::DAffine2;
 
 use super::importer::Importer;
 use super::json::{Material, SpecularGlossiness, TextureInfo, extension};
@@ -149,8 +149,8 @@ impl Surface<'_, '_> {
     }
 
     /// Three numbers that are held within their range in this way.
-    fn colour_within(&mut self, colour: DVec3, limits: [f64; 2], key: &str) -> DVec3 {
-        let possible = colour.clamp(DVec3::splat(limits[0]), DVec3::splat(limits[1]));
+    fn colour_within(&mut self, colour: Spectrum, limits: [f64; 2], key: &str) -> Spectrum {
+        let possible = colour.clamp(Spectrum::grey(limits[0]), Spectrum::grey(limits[1]));
         if possible != colour {
             self.approximate(&format!("{key} beyond {} to {}", limits[0], limits[1]), "the nearest possible value is taken");
         }
@@ -170,7 +170,7 @@ impl Surface<'_, '_> {
     fn entry(&mut self) -> Result<MaterialEntry, String> {
         let (factor, texture) = self.base_colour();
         let key = if self.glossy.is_some() { "diffuseFactor" } else { "baseColorFactor" };
-        let colour = self.colour_within(DVec3::new(factor[0], factor[1], factor[2]), [0.0, 1.0], key);
+        let colour = self.colour_within(Spectrum::new(factor[0], factor[1], factor[2]), [0.0, 1.0], key);
         let alpha = self.within(factor[3], [0.0, 1.0], key);
         let base = match &texture {
             Some(info) => Input::Texture(self.base_texture(info)?, colour),
@@ -197,7 +197,7 @@ impl Surface<'_, '_> {
     /// The reflectance of the base: metal and dielectric, or specular and glossiness, whose colour of reflection is that along the normal.
     fn base_layer(&mut self) -> Result<BaseLayer, String> {
         if let Some(glossy) = self.glossy.clone() {
-            let colour = DVec3::from(glossy.specular_factor.unwrap_or([1.0; 3]));
+            let colour = Spectrum::from_rgb(glossy.specular_factor.unwrap_or([1.0; 3]));
             let colour = self.colour_within(colour, [0.0, 1.0], "specularFactor") / normal_reflectance(LARGEST_IOR);
             let glossiness = self.within(glossy.glossiness_factor.unwrap_or(1.0), [0.0, 1.0], "glossinessFactor");
             let (specular_color, roughness) = match glossy.specular_glossiness_texture {
@@ -220,7 +220,7 @@ impl Surface<'_, '_> {
         let metallic = self.within(pbr.metallic_factor.unwrap_or(1.0), [0.0, 1.0], "metallicFactor");
         let roughness = self.within(pbr.roughness_factor.unwrap_or(1.0), [0.0, 1.0], "roughnessFactor");
         let (ior, reflected) = self.ior();
-        let tint = self.tint(SPECULAR, "specularColorFactor", DVec3::ONE, [f64::MAX, reflected], "specularColorTexture")?;
+        let tint = self.tint(SPECULAR, "specularColorFactor", Spectrum::WHITE, [f64::MAX, reflected], "specularColorTexture")?;
         Ok(BaseLayer {
             // Green of the texture is roughness, and blue is metallic.
             metallic: Share { map: map.clone().map(|map| (map, Channel::B)), factor: metallic },
@@ -254,7 +254,7 @@ impl Surface<'_, '_> {
         let BaseLayer { metallic, roughness, ior, specular, specular_color } = self.base_layer()?;
         let transmission = self.factor(TRANSMISSION, "transmissionFactor", 0.0, "transmissionTexture", Channel::R)?;
         let clearcoat = self.factor(CLEARCOAT, "clearcoatFactor", 0.0, "clearcoatTexture", Channel::R)?;
-        let sheen = self.tint(SHEEN, "sheenColorFactor", DVec3::ZERO, [1.0, 1.0], "sheenColorTexture")?;
+        let sheen = self.tint(SHEEN, "sheenColorFactor", Spectrum::BLACK, [1.0, 1.0], "sheenColorTexture")?;
         let place = self.place();
         let has_sheen = sheen != Input::grey(0.0);
         if !has_sheen && [&metallic, &transmission, &specular, &clearcoat].into_iter().all(|share| share.is(0.0)) {
@@ -333,20 +333,20 @@ impl Surface<'_, '_> {
     }
 
     /// A colour of an extension, at most so much, times a factor and its texture.
-    fn tint(&mut self, of: &str, key: &str, default: DVec3, [most, times]: [f64; 2], texture: &str) -> Result<Input, String> {
+    fn tint(&mut self, of: &str, key: &str, default: Spectrum, [most, times]: [f64; 2], texture: &str) -> Result<Input, String> {
         let colour = self.colour(of, key).unwrap_or(default);
         let factor = self.colour_within(colour, [0.0, most], key) * times;
         match self.texture_of(of, texture)? {
-            Some(info) if factor != DVec3::ZERO => self.texture(&info, TextureRole::Colour, factor, texture),
+            Some(info) if factor != Spectrum::BLACK => self.texture(&info, TextureRole::Colour, factor, texture),
             _ => Ok(Input::Constant(factor)),
         }
     }
 
     /// Three numbers of an extension.
-    fn colour(&self, of: &str, key: &str) -> Option<DVec3> {
+    fn colour(&self, of: &str, key: &str) -> Option<Spectrum> {
         let list = self.material.extensions.get(of)?.get(key)?.as_array()?;
         let channels: Option<Vec<f64>> = list.iter().map(serde_json::Value::as_f64).collect();
-        <[f64; 3]>::try_from(channels?).ok().map(DVec3::from)
+        <[f64; 3]>::try_from(channels?).ok().map(Spectrum::from_rgb)
     }
 
     /// A medium fills the body that it encloses. Both sides of such a surface are there (KHR_materials_volume).
@@ -358,14 +358,14 @@ impl Surface<'_, '_> {
     /// Attenuation within a volume. Without a distance, or white, there is none.
     fn attenuation(&mut self, keys: &mut principled::Keys) -> Result<(), String> {
         let distance = self.number(VOLUME, "attenuationDistance", f64::INFINITY);
-        let colour = self.colour(VOLUME, "attenuationColor").unwrap_or(DVec3::ONE);
+        let colour = self.colour(VOLUME, "attenuationColor").unwrap_or(Spectrum::WHITE);
         let colour = self.colour_within(colour, [0.0, 1.0], "attenuationColor");
         if distance <= 0.0 {
             self.approximate("attenuationDistance not above 0", "the volume takes no light");
         }
-        if distance.is_finite() && distance > 0.0 && colour != DVec3::ONE {
+        if distance.is_finite() && distance > 0.0 && colour != Spectrum::WHITE {
             let place = self.place();
-            keys.attenuation_color = Some(place.at(Rgb::<Fraction>::of(Spectrum::from_rgb(colour.to_array()))?));
+            keys.attenuation_color = Some(place.at(Rgb::<Fraction>::of(colour)?));
             keys.attenuation_distance = Some(place.at(Checked::of(distance)?));
         }
         Ok(())
@@ -384,8 +384,9 @@ impl Surface<'_, '_> {
         let strength = self.number("KHR_materials_emissive_strength", "emissiveStrength", 1.0);
         let strength = self.within(strength, [0.0, f64::MAX], "emissiveStrength");
         // Above 1 it is as bright as it says.
-        let factor = self.colour_within(DVec3::from(self.material.emissive_factor), [0.0, f64::MAX], "emissiveFactor") * strength;
-        if factor == DVec3::ZERO {
+        let factor =
+            self.colour_within(Spectrum::from_rgb(self.material.emissive_factor), [0.0, f64::MAX], "emissiveFactor") * strength;
+        if factor == Spectrum::BLACK {
             return Ok(());
         }
         let emission = match self.material.emissive_texture.clone() {
@@ -429,7 +430,7 @@ impl Surface<'_, '_> {
     }
 
     /// A texture times a factor.
-    fn texture(&mut self, info: &TextureInfo, role: TextureRole, factor: DVec3, what: &str) -> Result<Input, String> {
+    fn texture(&mut self, info: &TextureInfo, role: TextureRole, factor: Spectrum, what: &str) -> Result<Input, String> {
         Ok(Input::Texture(self.lookup(info, role, what, None)?, factor))
     }
 

@@ -1,7 +1,5 @@
 //! Parameters of surfaces and lights.
 
-use glam::DVec3;
-
 use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::reference::TextureName;
 use crate::load::file::value::Rule;
@@ -11,17 +9,17 @@ use crate::spectrum::Spectrum;
 /// A parameter: a constant or the name of a texture.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Input {
-    Constant(DVec3),
+    Constant(Spectrum),
     /// Its name, and what multiplies it.
-    Texture(String, DVec3),
+    Texture(String, Spectrum),
 }
 
 impl Input {
     pub fn grey(value: f64) -> Self {
-        Self::Constant(DVec3::splat(value))
+        Self::Constant(Spectrum::grey(value))
     }
 
-    pub fn constant(&self) -> Option<DVec3> {
+    pub fn constant(&self) -> Option<Spectrum> {
         match self {
             Self::Constant(colour) => Some(*colour),
             Self::Texture(..) => None,
@@ -34,8 +32,8 @@ impl Input {
     /// A sentence about a number that `R` does not accept.
     pub fn colour<R: Rule>(&self, place: &Place) -> Result<Colour<R>, String> {
         match self {
-            Self::Constant(colour) => Colour::constant(spectrum(*colour)),
-            Self::Texture(name, factor) => Colour::of_texture(place.at(TextureName(name.clone())), spectrum(*factor)),
+            Self::Constant(colour) => Colour::constant(*colour),
+            Self::Texture(name, factor) => Colour::of_texture(place.at(TextureName(name.clone())), *factor),
         }
     }
 
@@ -44,8 +42,8 @@ impl Input {
     /// # Errors
     /// A sentence about a colour, and about a number that `R` does not accept.
     pub fn scalar<R: Rule>(&self, place: &Place) -> Result<Scalar<R>, String> {
-        let number = |colour: DVec3| match colour.min_element() == colour.max_element() {
-            true => Ok(colour.x),
+        let number = |colour: Spectrum| match colour.min_component() == colour.max_component() {
+            true => Ok(colour.r()),
             false => Err("a colour is not possible here, expected one number".to_owned()),
         };
         match self {
@@ -53,8 +51,4 @@ impl Input {
             Self::Texture(name, factor) => Scalar::of_texture(place.at(TextureName(name.clone())), None, number(*factor)?),
         }
     }
-}
-
-fn spectrum(colour: DVec3) -> Spectrum {
-    Spectrum::from_rgb(colour.to_array())
 }

@@ -22,6 +22,7 @@ use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, Textu
 use crate::load::image_file::{EmbeddedFile, PictureSource, Pictures};
 use crate::load::import::Input;
 use crate::scene::{ColorSpace, ImageData};
+use crate::spectrum::Spectrum;
 
 /// Rec.709
 const LUMINANCE: DVec3 = DVec3::new(0.212671, 0.715160, 0.072169);
@@ -109,11 +110,11 @@ impl Converter<'_> {
     }
 
     /// The mean of what a parameter gives over its texture.
-    pub fn mean(&self, input: &Input) -> DVec3 {
-        let Input::Texture(name, factor) = input else { return input.constant().unwrap_or(DVec3::ONE) };
+    pub fn mean(&self, input: &Input) -> Spectrum {
+        let Input::Texture(name, factor) = input else { return input.constant().unwrap_or(Spectrum::WHITE) };
         let image = match self.scene.file.texture.iter().find(|entry| entry.name() == name) {
             Some(TextureEntry::Image(image)) => image,
-            Some(TextureEntry::Checker(checker)) => return *factor * 0.5 * DVec3::from(((checker.a.0) + (checker.b.0)).to_rgb()),
+            Some(TextureEntry::Checker(checker)) => return *factor * 0.5 * (checker.a.0 + checker.b.0),
             _ => return *factor,
         };
         let source = match &image.file.value {
@@ -123,9 +124,9 @@ impl Converter<'_> {
         };
         let space = image.color_space.filter(|space| *space == ColorSpaceEntry::Linear).map(ColorSpace::from);
         let picture = Pictures::new(self.files.clone()).read(&source, space);
-        let mean = picture.map_or(DVec3::ONE, |picture| {
+        let mean = picture.map_or(Spectrum::WHITE, |picture| {
             let texels = &picture.image.texels;
-            texels.colors().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64
+            texels.colors().map(|texel| Spectrum::from_f32(texel.to_array())).sum::<Spectrum>() / texels.len().max(1) as f64
         });
         *factor * mean
     }

@@ -5,10 +5,11 @@
 use glam::{DMat3, DVec3};
 
 use super::number::parse_number;
-use super::plugin::{PropertyValue, Spectrum, error_at};
+use super::plugin::{PropertyValue, SpectralCurve, error_at};
 use super::transform::numbers;
 use crate::load::error::SceneError;
 use crate::load::place::Origin;
+use crate::spectrum::Spectrum;
 
 /// The quantity that a spectrum describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,9 +67,9 @@ const OBSERVER: [[f64; 4]; 41] = [
 ];
 
 /// Linear Rec.709 of CIE XYZ.
-fn from_xyz(xyz: DVec3) -> DVec3 {
+fn from_xyz(xyz: DVec3) -> Spectrum {
     let columns = [[3.240479, -0.969256, 0.055648], [-1.537150, 1.875991, -0.204043], [-0.498535, 0.041556, 1.057311]];
-    DMat3::from_cols_array_2d(&columns) * xyz
+    Spectrum::from_rgb((DMat3::from_cols_array_2d(&columns) * xyz).to_array())
 }
 
 /// The table between its rows, at any wavelength within it.
@@ -81,7 +82,7 @@ fn observer(wavelength: f64) -> [f64; 4] {
 
 /// The colour of a spectrum that gives so much at each wavelength in nanometres. A surface that reflects everything is white to the last digit:
 /// the tables' own white is off by 0.2 % in blue.
-pub fn integrate(role: Role, spectrum: impl Fn(f64) -> f64) -> DVec3 {
+pub fn integrate(role: Role, spectrum: impl Fn(f64) -> f64) -> Spectrum {
     let (mut sum, mut white) = (DVec3::ZERO, DVec3::ZERO);
     for step in 0..=((OBSERVER.len() - 1) * STEP as usize) {
         let wavelength = FIRST_WAVELENGTH + step as f64;
@@ -104,17 +105,17 @@ pub fn between(samples: &[(f64, f64)], wavelength: f64) -> f64 {
     }
 }
 
-impl Spectrum {
+impl SpectralCurve {
     /// The colour in linear Rec.709, without negative parts; a surface's is as bright as it says, which may be above 1.
-    pub fn color(&self, role: Role) -> DVec3 {
+    pub fn color(&self, role: Role) -> Spectrum {
         let colour = match self {
             // A light of equal energy is not white.
             Self::Uniform(value) if role == Role::Light => from_xyz(DVec3::splat(*value)),
-            Self::Uniform(value) => DVec3::splat(*value),
+            Self::Uniform(value) => Spectrum::grey(*value),
             Self::Samples(samples) => integrate(role, |wavelength| between(samples, wavelength)),
             Self::BlackBody(kelvin, scale) => integrate(role, |wavelength| scale * planck(wavelength, *kelvin)),
         };
-        colour.max(DVec3::ZERO)
+        colour.max(Spectrum::BLACK)
     }
 }
 
@@ -128,7 +129,7 @@ fn planck(nanometres: f64, kelvin: f64) -> f64 {
     2e-9 * PLANCK * LIGHT * LIGHT / wavelength.powi(5) / exponent.exp_m1()
 }
 
-fn hex(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
+fn hex(place: &Origin, text: &str) -> Result<Spectrum, SceneError> {
     let digits = &text[1..];
     let wrong = || error_at(place, format!("expected a colour as #rrggbb, found `{text}`"));
     let number = u32::from_str_radix(digits, 16).map_err(|_| wrong())?;
@@ -136,29 +137,29 @@ fn hex(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
         return Err(wrong());
     }
     let channels = [16, 8, 0].map(|shift| ((number >> shift) & 0xff) as u8);
-    Ok(decoded(DVec3::from_array(channels.map(|channel| f64::from(channel) / 255.0))))
+    Ok(decoded(Spectrum::from_rgb(channels.map(|channel| f64::from(channel) / 255.0))))
 }
 
 /// sRGB's curve undone.
-fn decoded(colour: DVec3) -> DVec3 {
+fn decoded(colour: Spectrum) -> Spectrum {
     let decode = |value: f64| if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) };
-    DVec3::from_array(colour.to_array().map(decode))
+    colour.map(decode)
 }
 
 /// One number or three.
-pub fn parse_rgb(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
+pub fn parse_rgb(place: &Origin, text: &str) -> Result<Spectrum, SceneError> {
     let text = text.trim();
     if text.starts_with('#') && text.is_ascii() {
         return hex(place, text);
     }
     match numbers(place, text)?[..] {
-        [grey] => Ok(DVec3::splat(grey)),
-        [r, g, b] => Ok(DVec3::new(r, g, b)),
+        [grey] => Ok(Spectrum::grey(grey)),
+        [r, g, b] => Ok(Spectrum::new(r, g, b)),
         _ => Err(error_at(place, format!("expected one number or three, found `{text}`"))),
     }
 }
 
-pub fn parse_srgb(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
+pub fn parse_srgb(place: &Origin, text: &str) -> Result<Spectrum, SceneError> {
     if text.trim().starts_with('#') { parse_rgb(place, text) } else { parse_rgb(place, text).map(decoded) }
 }
 
@@ -166,8 +167,8 @@ pub fn parse_srgb(place: &Origin, text: &str) -> Result<DVec3, SceneError> {
 pub fn parse_spectrum(place: &Origin, text: &str) -> Result<PropertyValue, SceneError> {
     if !text.contains(':') {
         return match numbers(place, text.trim().trim_start_matches('#'))?[..] {
-            [value] if !text.trim().starts_with('#') => Ok(PropertyValue::Spectrum(Spectrum::Uniform(value))),
-            [r, g, b] => Ok(PropertyValue::Rgb(DVec3::new(r, g, b))),
+            [value] if !text.trim().starts_with('#') => Ok(PropertyValue::Spectrum(SpectralCurve::Uniform(value))),
+            [r, g, b] => Ok(PropertyValue::Rgb(Spectrum::new(r, g, b))),
             _ => Err(error_at(place, format!("expected a number or wavelength:value pairs, found `{text}`"))),
         };
     }
@@ -181,7 +182,7 @@ pub fn parse_spectrum(place: &Origin, text: &str) -> Result<PropertyValue, Scene
 }
 
 /// Lines of a wavelength and a value; those that begin with # say nothing.
-pub fn parse_spectrum_file(place: &Origin, text: &str) -> Result<Spectrum, SceneError> {
+pub fn parse_spectrum_file(place: &Origin, text: &str) -> Result<SpectralCurve, SceneError> {
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let pairs = lines.map(|line| match numbers(place, line)?[..] {
         [wavelength, value] => Ok((wavelength, value)),
@@ -191,11 +192,11 @@ pub fn parse_spectrum_file(place: &Origin, text: &str) -> Result<Spectrum, Scene
 }
 
 /// Samples in ascending order.
-pub fn samples(place: &Origin, pairs: Vec<(f64, f64)>) -> Result<Spectrum, SceneError> {
+pub fn samples(place: &Origin, pairs: Vec<(f64, f64)>) -> Result<SpectralCurve, SceneError> {
     if pairs.is_empty() || pairs.windows(2).any(|pair| pair[0].0 >= pair[1].0) {
         return Err(error_at(place, "the wavelengths of a spectrum ascend"));
     }
-    Ok(Spectrum::Samples(pairs))
+    Ok(SpectralCurve::Samples(pairs))
 }
 
 #[cfg(test)]
@@ -205,25 +206,25 @@ mod tests {
     #[test]
     fn white_is_white_under_daylight() {
         let white = integrate(Role::Surface, |_| 1.0);
-        assert!((white - DVec3::ONE).abs().max_element() < 1e-12, "{white}");
+        assert!((white - Spectrum::WHITE).map(f64::abs).max_component() < 1e-12, "{white}");
         // The control: a light of equal energy is reddish beside daylight.
         let light = integrate(Role::Light, |_| 1.0);
-        assert!((light - DVec3::new(1.2048, 0.9484, 0.9087)).abs().max_element() < 2e-3, "{light}");
+        assert!((light - Spectrum::new(1.2048, 0.9484, 0.9087)).map(f64::abs).max_component() < 2e-3, "{light}");
     }
 
     #[test]
     fn hot_bodies_are_blue_and_cool_ones_red() {
-        let colour = |kelvin| Spectrum::BlackBody(kelvin, 1.0).color(Role::Light);
+        let colour = |kelvin| SpectralCurve::BlackBody(kelvin, 1.0).color(Role::Light);
         let (warm, cold) = (colour(2800.0), colour(12_000.0));
-        assert!(warm.x > 2.0 * warm.z && cold.z > cold.x, "{warm} {cold}");
+        assert!(warm.r() > 2.0 * warm.b() && cold.b() > cold.r(), "{warm} {cold}");
     }
 
     #[test]
     fn colours_are_read_in_every_form() {
         let place = Origin::default();
-        assert_eq!(parse_rgb(&place, "0.5").unwrap(), DVec3::splat(0.5));
-        assert_eq!(parse_rgb(&place, "1, 2 3").unwrap(), DVec3::new(1.0, 2.0, 3.0));
-        assert!((parse_srgb(&place, "#ff8000").unwrap() - DVec3::new(1.0, 0.2158605, 0.0)).length() < 1e-6);
+        assert_eq!(parse_rgb(&place, "0.5").unwrap(), Spectrum::grey(0.5));
+        assert_eq!(parse_rgb(&place, "1, 2 3").unwrap(), Spectrum::new(1.0, 2.0, 3.0));
+        assert!(parse_srgb(&place, "#ff8000").unwrap().distance(Spectrum::new(1.0, 0.2158605, 0.0)) < 1e-6);
         for bad in ["1 2", "red", "#ff", "#ÿÿÿ", "nan", ""] {
             assert!(parse_rgb(&place, bad).is_err(), "{bad}");
         }

@@ -82,30 +82,30 @@ impl Converter<'_> {
         let place = plugin.at();
         if plugin.name != "sun" {
             let keys = sky::Keys {
-                zenith: rgb(plugin, DVec3::new(0.03, 0.05, 0.1))?,
-                horizon: rgb(plugin, DVec3::new(0.09, 0.11, 0.13))?,
-                ground: rgb(plugin, DVec3::splat(0.02))?,
+                zenith: rgb(plugin, Spectrum::new(0.03, 0.05, 0.1))?,
+                horizon: rgb(plugin, Spectrum::new(0.09, 0.11, 0.13))?,
+                ground: rgb(plugin, Spectrum::grey(0.02))?,
             };
             self.scene.file.light.push(place.at(LightEntry::Sky(keys)));
         }
         if plugin.name != "sky" {
             let toward = plugin.vector("sun_direction")?.unwrap_or(DVec3::new(0.4, 0.7, 0.3));
             let direction = self.direction(plugin, -toward)?;
-            let entry = sun(plugin, direction, DVec3::new(1.4, 1.3, 1.1))?;
+            let entry = sun(plugin, direction, Spectrum::new(1.4, 1.3, 1.1))?;
             self.scene.file.light.push(place.at(entry));
         }
         Ok(())
     }
 
     /// A colour of light; of a texture its place is taken by 1.
-    fn constant(&mut self, plugin: &Plugin, name: &str) -> Result<DVec3, SceneError> {
+    fn constant(&mut self, plugin: &Plugin, name: &str) -> Result<Spectrum, SceneError> {
         let input = self.light_colour(plugin, name, 1.0)?;
         let Some(colour) = input.constant() else {
             let what = format!("texture of {}", plugin.title());
             self.drop(plugin, &what, "1 is taken for it");
-            return Ok(DVec3::ONE);
+            return Ok(Spectrum::WHITE);
         };
-        if colour.min_element() < 0.0 {
+        if colour.min_component() < 0.0 {
             return Err(plugin.error(format!("`{name}` is below 0")));
         }
         Ok(colour)
@@ -123,7 +123,7 @@ impl Converter<'_> {
         let map = DAffine2 { matrix2: DMat2::from_diagonal(DVec2::new(x.0, y.0)), translation: DVec2::new(x.1, y.1) };
         let input = self.light_texture(plugin, name, map)?;
         match input.constant() {
-            Some(colour) if colour.min_element() < 0.0 => Err(plugin.error(format!("`{name}` is below 0"))),
+            Some(colour) if colour.min_component() < 0.0 => Err(plugin.error(format!("`{name}` is below 0"))),
             _ => Ok(input),
         }
     }
@@ -246,11 +246,11 @@ fn vector(plugin: &Plugin, value: DVec3) -> Result<Vector, SceneError> {
     plugin.possible(Exactly::of(value.to_array()))
 }
 
-fn rgb(plugin: &Plugin, colour: DVec3) -> Result<Rgb<NonNegative>, SceneError> {
-    plugin.possible(Rgb::of(Spectrum::from_rgb(colour.to_array())))
+fn rgb(plugin: &Plugin, colour: Spectrum) -> Result<Rgb<NonNegative>, SceneError> {
+    plugin.possible(Rgb::of(colour))
 }
 
-fn sun(plugin: &Plugin, direction: DVec3, irradiance: DVec3) -> Result<LightEntry, SceneError> {
+fn sun(plugin: &Plugin, direction: DVec3, irradiance: Spectrum) -> Result<LightEntry, SceneError> {
     Ok(LightEntry::Directional(directional::Keys {
         direction: plugin.at().at(vector(plugin, direction)?),
         irradiance: rgb(plugin, irradiance)?,
@@ -270,7 +270,7 @@ pub fn area_radiance(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<O
         return Ok(None);
     }
     let radiance = converter.light_colour(plugin, "radiance", 1.0)?;
-    if radiance.constant().is_some_and(|radiance| radiance.min_element() < 0.0) {
+    if radiance.constant().is_some_and(|radiance| radiance.min_component() < 0.0) {
         return Err(plugin.error("`radiance` is below 0"));
     }
     Ok(Some(radiance))

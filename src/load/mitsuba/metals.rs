@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::colour::{Role, integrate};
 use crate::load::file::material::conductor::MetalEntry;
+use crate::spectrum::Spectrum;
 
 /// Indices of refraction at 589 nm (CRC Handbook of Chemistry and Physics; Schott for BK7).
 const DIELECTRICS: [(&str, f64); 24] = [
@@ -181,19 +182,19 @@ const TOLD: [Told; 21] = [
 /// of named metals so, though not those that a scene writes: a spectrum that is constant over wavelength
 /// becomes 1.20, 0.95 and 0.91 of it. The spectrum is taken for the parabola over the wavelength that has
 /// these values, which is right to half a per cent for all of the table.
-fn under_equal_energy(daylight: [f64; 3]) -> DVec3 {
+fn under_equal_energy(daylight: [f64; 3]) -> Spectrum {
     let of_basis = |role: Role| {
         DMat3::from_cols_array_2d(
-            &[0, 1, 2].map(|power| integrate(role, |wavelength| ((wavelength - 560.0) / 200.0).powi(power)).to_array()),
+            &[0, 1, 2].map(|power| integrate(role, |wavelength| ((wavelength - 560.0) / 200.0).powi(power)).to_rgb()),
         )
     };
-    of_basis(Role::Light) * of_basis(Role::Surface).inverse() * DVec3::from(daylight)
+    Spectrum::from_rgb((of_basis(Role::Light) * of_basis(Role::Surface).inverse() * DVec3::from(daylight)).to_array())
 }
 
 /// The metal of a conductor.
 pub enum Metal {
     Preset(MetalEntry),
-    Constants { eta: DVec3, k: DVec3 },
+    Constants { eta: Spectrum, k: Spectrum },
 }
 
 /// The metal of this name. None of a metal that is not known.
@@ -210,7 +211,7 @@ pub fn conductor(name: &str) -> Option<Metal> {
     }
     if let Some(Told { n, k, .. }) = TOLD.iter().find(|one| one.name == plain) {
         // An index of 0 is a perfect mirror, which a small one is as well.
-        return Some(Metal::Constants { eta: DVec3::from(*n).max(DVec3::splat(1e-4)), k: DVec3::from(*k) });
+        return Some(Metal::Constants { eta: Spectrum::from_rgb(*n).max(Spectrum::grey(1e-4)), k: Spectrum::from_rgb(*k) });
     }
     if let Some(Measured { n, k, .. }) = MEASURED.iter().find(|one| one.name == plain) {
         return Some(Metal::Constants { eta: under_equal_energy(*n), k: under_equal_energy(*k) });
@@ -218,7 +219,7 @@ pub fn conductor(name: &str) -> Option<Metal> {
     let metal = METALS.iter().find(|metal| metal.name == plain)?;
     let eta = integrate(Role::Light, |wavelength| metal.index(wavelength).0);
     let k = integrate(Role::Light, |wavelength| metal.index(wavelength).1);
-    Some(Metal::Constants { eta: eta.max(DVec3::splat(1e-3)), k: k.max(DVec3::ZERO) })
+    Some(Metal::Constants { eta: eta.max(Spectrum::grey(1e-3)), k: k.max(Spectrum::BLACK) })
 }
 
 #[cfg(test)]
@@ -231,7 +232,7 @@ mod tests {
         let metal = METALS.iter().find(|metal| metal.name == "be").expect("it is in the table");
         for (part, told) in [(0, [4.1850, 3.1850, 2.7841]), (1, [3.8355, 3.0101, 2.8690])] {
             let found = integrate(Role::Light, |wavelength| [metal.index(wavelength).0, metal.index(wavelength).1][part]);
-            assert!((found / DVec3::from(told) - DVec3::ONE).abs().max_element() < 0.1, "{found}");
+            assert!((found / Spectrum::from_rgb(told) - Spectrum::WHITE).map(f64::abs).max_component() < 0.1, "{found}");
         }
     }
 
@@ -245,9 +246,10 @@ mod tests {
         ] {
             let metal = MEASURED.iter().find(|metal| metal.name == name).expect("it is in the table");
             for (daylight, theirs) in [(metal.n, eta), (metal.k, k)] {
-                let is_near = |ours: DVec3| (ours / DVec3::from(theirs) - DVec3::ONE).abs().max_element() < 6e-3;
+                let is_near =
+                    |ours: Spectrum| (ours / Spectrum::from_rgb(theirs) - Spectrum::WHITE).map(f64::abs).max_component() < 6e-3;
                 assert!(is_near(under_equal_energy(daylight)), "{name}: {}", under_equal_energy(daylight));
-                assert!(!is_near(DVec3::from(daylight)), "{name}: daylight would do as well");
+                assert!(!is_near(Spectrum::from_rgb(daylight)), "{name}: daylight would do as well");
             }
         }
     }

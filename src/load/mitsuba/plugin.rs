@@ -8,6 +8,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::load::error::SceneError;
 use crate::load::place::{Origin, Place};
+use crate::spectrum::Spectrum;
 
 /// An instance of a plugin: an element with its properties and the plugins within.
 #[derive(Debug)]
@@ -59,13 +60,13 @@ pub enum PropertyValue {
     Text(String),
     Vector(DVec3),
     /// Linear Rec.709.
-    Rgb(DVec3),
-    Spectrum(Spectrum),
+    Rgb(Spectrum),
+    Spectrum(SpectralCurve),
     Transform(DAffine3),
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub enum Spectrum {
+pub enum SpectralCurve {
     Uniform(f64),
     /// Wavelengths in nanometres with their values.
     Samples(Vec<(f64, f64)>),
@@ -147,8 +148,8 @@ impl Plugin {
             None => Ok(None),
             Some(property) => match &property.value {
                 PropertyValue::Number(number) => Ok(Some(*number)),
-                PropertyValue::Spectrum(Spectrum::Uniform(number)) => Ok(Some(*number)),
-                PropertyValue::Rgb(colour) if colour.min_element() == colour.max_element() => Ok(Some(colour.x)),
+                PropertyValue::Spectrum(SpectralCurve::Uniform(number)) => Ok(Some(*number)),
+                PropertyValue::Rgb(colour) if colour.min_component() == colour.max_component() => Ok(Some(colour.r())),
                 _ => Err(wrong_kind(property, "a number")),
             },
         }

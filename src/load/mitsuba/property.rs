@@ -7,7 +7,7 @@ use roxmltree::Node;
 
 use super::document::{Reader, Source};
 use super::number::parse_number;
-use super::plugin::{Plugin, Property, PropertyValue, Spectrum, error_at};
+use super::plugin::{Plugin, Property, PropertyValue, SpectralCurve, error_at};
 use super::{colour, transform};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
@@ -41,7 +41,7 @@ impl Reader<'_> {
                     Some(scale) => parse_number(&place, &scale)?,
                     None => 1.0,
                 };
-                PropertyValue::Spectrum(Spectrum::BlackBody(kelvin, scale))
+                PropertyValue::Spectrum(SpectralCurve::BlackBody(kelvin, scale))
             }
             "transform" => PropertyValue::Transform(self.transform(source, node)?),
             "animation" => {

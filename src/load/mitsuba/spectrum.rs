@@ -1,12 +1,12 @@
 //! Plugins of sampled spectra.
 
 use super::colour::samples;
-use super::plugin::{Plugin, Spectrum};
+use super::plugin::{Plugin, SpectralCurve};
 use super::transform::numbers;
 use crate::load::error::SceneError;
 
 /// `regular` and `irregular`.
-pub fn sampled(plugin: &Plugin) -> Result<Spectrum, SceneError> {
+pub fn sampled(plugin: &Plugin) -> Result<SpectralCurve, SceneError> {
     let list = |name: &str| -> Result<Vec<f64>, SceneError> {
         let text = plugin.text(name)?.ok_or_else(|| plugin.error(format!("{} needs the string `{name}`", plugin.title())))?;
         numbers(&plugin.place, text)

@@ -4,17 +4,18 @@
 
 use std::rc::Rc;
 
-use glam::{DAffine2, DMat2, DVec2, DVec3};
+use glam::{DAffine2, DMat2, DVec2};
 
 use super::colour::Role;
 use super::converter::Converter;
 use super::input::Texels;
-use super::plugin::{Plugin, PropertyValue, Spectrum};
+use super::plugin::{Plugin, PropertyValue, SpectralCurve};
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::syntax::{CheckerEntry, TextureEntry};
 use crate::load::file::value::{Exactly, Number};
 use crate::load::import::Input;
+use crate::spectrum::Spectrum;
 
 impl Converter<'_> {
     /// A colour of light that leaves something: any amount.
@@ -26,11 +27,11 @@ impl Converter<'_> {
     pub fn reflectance(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<Input, SceneError> {
         match self.input(plugin, name, Role::Surface, Texels::Colours, default)? {
             Input::Constant(colour) => {
-                if colour.max_element() > 1.0 + 1e-6 {
+                if colour.max_component() > 1.0 + 1e-6 {
                     let what = format!("{}: `{name}` above 1", plugin.title());
                     self.approximate(plugin, &what, "1 is taken, since more would make energy");
                 }
-                Ok(Input::Constant(colour.clamp(DVec3::ZERO, DVec3::ONE)))
+                Ok(Input::Constant(colour.clamp(Spectrum::BLACK, Spectrum::WHITE)))
             }
             texture => Ok(texture),
         }
@@ -49,7 +50,7 @@ impl Converter<'_> {
             let what = format!("texture of `{name}` of {}", plugin.title());
             self.approximate(plugin, &what, "its mean is taken");
         }
-        Ok(mean.x)
+        Ok(mean.r())
     }
 
     /// A number, perhaps from a texture.
@@ -70,7 +71,9 @@ impl Converter<'_> {
             Some(PropertyValue::Number(number)) => Input::grey(*number),
             Some(PropertyValue::Rgb(colour)) => Input::Constant(*colour),
             Some(PropertyValue::Spectrum(spectrum)) => Input::Constant(spectrum.color(role)),
-            Some(PropertyValue::Vector(vector)) if plugin.name == "rawconstant" => Input::Constant(*vector),
+            Some(PropertyValue::Vector(vector)) if plugin.name == "rawconstant" => {
+                Input::Constant(Spectrum::from_rgb(vector.to_array()))
+            }
             Some(PropertyValue::Text(_) | PropertyValue::Flag(_) | PropertyValue::Vector(_) | PropertyValue::Transform(_)) => {
                 return Err(plugin.error(format!("`{name}` of {} is no colour", plugin.title())));
             }
@@ -121,7 +124,7 @@ impl Converter<'_> {
             }
             "blackbody" => {
                 let kelvin = plugin.number_or("temperature", 5000.0)?;
-                self.scaled(plugin, Input::Constant(Spectrum::BlackBody(kelvin, 1.0).color(role)))
+                self.scaled(plugin, Input::Constant(SpectralCurve::BlackBody(kelvin, 1.0).color(role)))
             }
             "regular" | "irregular" => super::spectrum::sampled(plugin).map(|spectrum| Input::Constant(spectrum.color(role))),
             "scale" => {
@@ -141,7 +144,7 @@ impl Converter<'_> {
 
     /// Times the plugin's factor.
     fn scaled(&mut self, plugin: &Plugin, colour: Input) -> Result<Input, SceneError> {
-        let factor = self.input(plugin, "scale", Role::Light, Texels::Numbers, 1.0)?.constant().unwrap_or(DVec3::ONE);
+        let factor = self.input(plugin, "scale", Role::Light, Texels::Numbers, 1.0)?.constant().unwrap_or(Spectrum::WHITE);
         Ok(match colour {
             Input::Constant(colour) => Input::Constant(colour * factor),
             Input::Texture(name, own) => Input::Texture(name, own * factor),
@@ -183,7 +186,7 @@ impl Converter<'_> {
     }
 
     fn checkerboard(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels, before: DAffine2) -> Result<Input, SceneError> {
-        let mut colours = [DVec3::ZERO; 2];
+        let mut colours = [Spectrum::BLACK; 2];
         for (colour, (name, default)) in colours.iter_mut().zip([("color0", 0.4), ("color1", 0.2)]) {
             let input = self.input(plugin, name, role, Texels::Colours, default)?;
             if input.constant().is_none() {
@@ -201,8 +204,8 @@ impl Converter<'_> {
         let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)? * before;
         let mut entry = TextureEntry::Checker(CheckerEntry {
             name: plugin.at().at(String::new()),
-            a: plugin.possible(Rgb::of(crate::spectrum::Spectrum::from_rgb(colours[0].to_array())))?,
-            b: plugin.possible(Rgb::of(crate::spectrum::Spectrum::from_rgb(colours[1].to_array())))?,
+            a: plugin.possible(Rgb::of(colours[0]))?,
+            b: plugin.possible(Rgb::of(colours[1]))?,
             scale: None,
             rotation: None,
             offset: None,
@@ -220,14 +223,14 @@ impl Converter<'_> {
         let name = self.scene.free_texture_name(wanted);
         *entry.common_mut().name = plugin.at().at(name.clone());
         self.scene.file.texture.push(entry);
-        Input::Texture(name, DVec3::ONE)
+        Input::Texture(name, Spectrum::WHITE)
     }
 }
 
 /// The mean of its channels.
-fn grey_of(colour: DVec3) -> DVec3 {
-    let is_grey = colour.min_element() == colour.max_element();
-    if is_grey { colour } else { DVec3::splat(colour.element_sum() / 3.0) }
+fn grey_of(colour: Spectrum) -> Spectrum {
+    let is_grey = colour.min_component() == colour.max_component();
+    if is_grey { colour } else { Spectrum::grey(colour.sum() / 3.0) }
 }
 
 fn is_texture(plugin: &Plugin) -> bool {

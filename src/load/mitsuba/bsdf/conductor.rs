@@ -2,8 +2,6 @@
 
 use std::rc::Rc;
 
-use glam::DVec3;
-
 use super::keyed::Keyed;
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Rgb, Scalar};
@@ -43,12 +41,12 @@ pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed
     match fresnel {
         Some(Metal::Preset(preset)) => keys.preset = Some(place.at(preset)),
         Some(Metal::Constants { eta, k }) => {
-            keys.eta = Some(place.at(plugin.possible(Rgb::of(Spectrum::from_rgb(eta.to_array())))?));
-            keys.k = Some(place.at(plugin.possible(Rgb::of(Spectrum::from_rgb(k.to_array())))?));
+            keys.eta = Some(place.at(plugin.possible(Rgb::of(eta))?));
+            keys.k = Some(place.at(plugin.possible(Rgb::of(k))?));
         }
         None => keys.reflectance = Some(place.at(plugin.possible(Input::grey(1.0).colour(&place))?)),
     }
-    if tint.constant() != Some(DVec3::ONE) {
+    if tint.constant() != Some(Spectrum::WHITE) {
         keys.specular_reflectance = Some(plugin.possible(tint.colour(&place))?);
     }
     if rough {
@@ -66,7 +64,7 @@ fn is_none(material: &str) -> bool {
 
 /// `eta` and `k`, relative to what is outside.
 fn complex(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Metal, SceneError> {
-    let mut constant = |name: &str, default: f64| -> Result<DVec3, SceneError> {
+    let mut constant = |name: &str, default: f64| -> Result<Spectrum, SceneError> {
         let input = converter.surface_number(plugin, name, default)?;
         if input.constant().is_none() {
             let what = format!("texture of `{name}` of a conductor");
@@ -77,8 +75,8 @@ fn complex(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Metal, Scen
     let (eta, k) = (constant("eta", 0.0)?, constant("k", 1.0)?);
     let outside = outside(plugin, "ext_eta")?;
     // An index of 0 is a perfect mirror, which a small one is as well.
-    let eta = (eta / outside).max(DVec3::splat(1e-4));
-    Ok(Metal::Constants { eta, k: (k / outside).max(DVec3::ZERO) })
+    let eta = (eta / outside).max(Spectrum::grey(1e-4));
+    Ok(Metal::Constants { eta, k: (k / outside).max(Spectrum::BLACK) })
 }
 
 /// The index of refraction of what is outside, a number or a name; of vacuum where nothing is said.
@@ -104,7 +102,7 @@ pub struct Widths {
 pub fn widths(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Widths, SceneError> {
     let clamped = |input: Input| {
         let input = match input {
-            Input::Constant(alpha) => Input::grey(alpha.x.clamp(0.0, 1.0)),
+            Input::Constant(alpha) => Input::grey(alpha.r().clamp(0.0, 1.0)),
             texture => texture,
         };
         plugin.possible(input.scalar(&plugin.at())).map(|alpha| Some(plugin.at().at(alpha)))

@@ -2,8 +2,6 @@
 
 use std::rc::Rc;
 
-use glam::DVec3;
-
 use super::conductor::{Widths, distribution, widths};
 use super::keyed::Keyed;
 use crate::load::error::SceneError;
@@ -15,7 +13,8 @@ use crate::load::file::value::{Checked, Fraction};
 use crate::load::import::Input;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::metals;
-use crate::load::mitsuba::plugin::{Plugin, PropertyValue, Spectrum};
+use crate::load::mitsuba::plugin::{Plugin, PropertyValue, SpectralCurve};
+use crate::spectrum::Spectrum;
 
 /// Glass; a thin one is two surfaces so near to each other that nothing is bent.
 pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
@@ -24,7 +23,7 @@ pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
     let transmittance = converter.reflectance(plugin, "specular_transmittance", 1.0)?;
     let place = plugin.at();
     let tint = |input: Input| -> Result<Option<Colour<Fraction>>, SceneError> {
-        let tint = Some(input).filter(|input| input.constant() != Some(DVec3::ONE));
+        let tint = Some(input).filter(|input| input.constant() != Some(Spectrum::WHITE));
         tint.map(|input| plugin.possible(input.colour(&place))).transpose()
     };
     let (ior, reflectance, transmittance) = (Some(plugin.possible(Checked::of(ior))?), tint(reflectance)?, tint(transmittance)?);
@@ -57,7 +56,7 @@ pub fn relative_ior(plugin: &Plugin, default: &str) -> Result<f64, SceneError> {
         match plugin.value(name) {
             None => by_name(default),
             Some(PropertyValue::Text(text)) => by_name(text),
-            Some(PropertyValue::Number(number) | PropertyValue::Spectrum(Spectrum::Uniform(number))) => Ok(*number),
+            Some(PropertyValue::Number(number) | PropertyValue::Spectrum(SpectralCurve::Uniform(number))) => Ok(*number),
             Some(_) => Err(plugin.error(format!("`{name}` is a number or a material's name"))),
         }
     };

@@ -39,7 +39,7 @@ impl Converter<'_> {
         };
         let plain = self.name_of(made);
         let Some(light) = light else { return Ok(plain) };
-        if light.constant().is_some_and(|radiance| radiance.max_element() == 0.0) {
+        if light.constant().is_some_and(|radiance| radiance.max_component() == 0.0) {
             return Ok(plain);
         }
         let place = shape.at();

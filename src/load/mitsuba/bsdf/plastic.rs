@@ -2,8 +2,6 @@
 
 use std::rc::Rc;
 
-use glam::DVec3;
-
 use super::conductor::distribution;
 use super::dielectric::relative_ior;
 use super::keyed::Keyed;
@@ -13,6 +11,7 @@ use crate::load::file::material::{MaterialEntry, plastic as entry};
 use crate::load::file::value::Checked;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
+use crate::spectrum::Spectrum;
 
 pub fn plastic(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     let ior = relative_ior(plugin, "polypropylene")?;
@@ -24,7 +23,7 @@ pub fn plastic(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, 
         ior: Some(plugin.possible(Checked::of(ior))?),
         ..Default::default()
     };
-    if specular.constant() != Some(DVec3::ONE) {
+    if specular.constant() != Some(Spectrum::WHITE) {
         keys.specular_reflectance = Some(plugin.possible(specular.colour(&place))?);
     }
     keys.nonlinear = plugin.flag("nonlinear", false)?;

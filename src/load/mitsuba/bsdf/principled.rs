@@ -72,12 +72,12 @@ pub fn principled(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
 }
 
 fn is(input: &Input, value: f64) -> bool {
-    input.constant().is_some_and(|constant| constant.x == value)
+    input.constant().is_some_and(|constant| constant.r() == value)
 }
 
 fn clamped(input: &Input) -> Input {
     match input {
-        Input::Constant(value) => Input::grey(value.x.clamp(0.0, 1.0)),
+        Input::Constant(value) => Input::grey(value.r().clamp(0.0, 1.0)),
         texture => texture.clone(),
     }
 }
@@ -85,10 +85,10 @@ fn clamped(input: &Input) -> Input {
 /// A blend's weight, which may come from a texture.
 pub fn weight(share: &Input, place: &Place) -> Result<BlendWeightEntry, String> {
     match share {
-        Input::Constant(share) => BlendWeightEntry::constant(share.x.clamp(0.0, 1.0)),
+        Input::Constant(share) => BlendWeightEntry::constant(share.r().clamp(0.0, 1.0)),
         // The first channel: masks are grey.
         Input::Texture(name, factor) => {
-            let factor = if factor.x == 1.0 { 1.0 } else { factor.x.clamp(0.0, 1.0) };
+            let factor = if factor.r() == 1.0 { 1.0 } else { factor.r().clamp(0.0, 1.0) };
             BlendWeightEntry::channel(place.at(TextureName(name.clone())), ChannelName::R, factor)
         }
     }

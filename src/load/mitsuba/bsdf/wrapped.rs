@@ -2,8 +2,6 @@
 
 use std::rc::Rc;
 
-use glam::DVec3;
-
 use super::keyed::{Keyed, Parts, black, nothing, with_relief};
 use super::principled::weight;
 use crate::load::error::SceneError;
@@ -16,6 +14,7 @@ use crate::load::mitsuba::colour::Role;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::input::Texels;
 use crate::load::mitsuba::plugin::Plugin;
+use crate::spectrum::Spectrum;
 
 pub fn two_sided(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let within = plugin.children_of("bsdf");
@@ -41,10 +40,10 @@ fn sides(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result
 
 pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let opacity = converter.scalar(plugin, "opacity", 0.5)?;
-    if opacity.constant() == Some(DVec3::ONE) {
+    if opacity.constant() == Some(Spectrum::WHITE) {
         return converter.within(plugin, depth);
     }
-    if opacity.constant() == Some(DVec3::ZERO) {
+    if opacity.constant() == Some(Spectrum::BLACK) {
         converter.within(plugin, depth)?;
         return Ok((nothing(), true));
     }
@@ -76,7 +75,7 @@ pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) ->
         let place = plugin.at();
         let common = entry.common_mut();
         *common.bump_map = Some(place.at(TextureName(name)));
-        *common.bump_scale = Some(place.at(plugin.possible(Number::of(scale * factor.x))?));
+        *common.bump_scale = Some(place.at(plugin.possible(Number::of(scale * factor.r()))?));
         plugin.without_effect(&["flip_invalid_normals"]);
         shade(plugin, &mut entry)?;
     }
