@@ -1,4 +1,4 @@
-// Tables of what microfacets and fibres reflect of all light, by the angle at which it arrives; src/scene/material/albedo.rs makes them.
+// Tables of what microfacets and fibres reflect of all light, by the angle at which it arrives; crates/gpt-scene/src/scene/material/albedo.rs makes them.
 #import core/layout.wgsl
 #import geometry/scene.wgsl
 

@@ -1,7 +1,7 @@
 //! Rules of Mitsuba's version 3 that differ from what one would guess, or from its versions before 2.
 
 use gpt::scene::{Camera, EnvironmentRadiance, Geometry, Light, MaterialKind, Texture, TextureKind};
-use gpt::{DeviceChoice, RenderOptions};
+use gpt::{DeviceChoice, Render, RenderOptions};
 
 use super::super::{Folder, picture, report};
 use super::{SCENE, with};

@@ -26,7 +26,6 @@ pub(super) mod value;
 pub(crate) mod writer;
 
 pub(super) use document::{Document, stem};
-#[cfg(test)]
 pub use light::delta_examples as delta_light_examples;
 pub(crate) use light::write_light;
 pub use light::{examples as light_examples, examples_of as light_examples_of, strength_key};

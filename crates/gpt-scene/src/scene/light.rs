@@ -23,6 +23,8 @@ pub use thrown::{FALLOFF_LINEAR, FALLOFF_SQUARE, FalloffCurve, Projector, SpotLi
 ///
 /// A row: variant of [`Light`], type of its data, module, and the name of the switch that compiles its shader, which in shaders is also the
 /// number of a delta light; then other switches that its shader needs. Scene files call it as its module.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! light_table {
     ($what:ident) => {
         $what! {
@@ -41,7 +43,8 @@ macro_rules! light_table {
         }
     };
 }
-pub(crate) use light_table;
+#[doc(hidden)]
+pub use light_table;
 
 /// Light from outside the scene.
 trait OutsideLight {

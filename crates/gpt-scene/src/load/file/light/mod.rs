@@ -123,7 +123,6 @@ impl Resolver<'_> {
 }
 
 /// By its type, every example of a light to which one direction leads from each point.
-#[cfg(test)]
 pub fn delta_examples() -> Vec<(&'static str, Light)> {
     let load = |(name, light)| {
         let text = format!("camera = {{ position = [0, 0, 1], look_at = [0, 0, 0], vfov = 40 }}\n{light}");
@@ -131,7 +130,5 @@ pub fn delta_examples() -> Vec<(&'static str, Light)> {
         let scene = crate::load::load_toml_str(&text, "example", std::path::Path::new("no-folder")).ok()?;
         Some((name, scene.lights.into_iter().find(|light| light.delta().is_some())?))
     };
-    let lights: Vec<(&str, Light)> = examples().filter_map(load).collect();
-    assert!(lights.len() >= crate::packed::light::LightKind::DELTA.len(), "{lights:?}");
-    lights
+    examples().filter_map(load).collect()
 }

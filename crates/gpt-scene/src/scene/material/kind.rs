@@ -19,6 +19,8 @@ pub type MaterialId = usize;
 ///   and in `shaders/shading/bsdf/`, the name of its number and of its switch in shaders, and its [`LobeSupport`].
 ///
 /// `material_table!(what)` calls `what!` with all rows. Dispatch and constants elsewhere are made from them; modules are declared where they stand.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! material_table {
     ($what:ident) => {
         $what! {
@@ -41,7 +43,8 @@ macro_rules! material_table {
         }
     };
 }
-pub(crate) use material_table;
+#[doc(hidden)]
+pub use material_table;
 
 /// The material of a surface, with its parameters.
 #[derive(Debug, Clone)]
@@ -338,7 +341,7 @@ pub enum LobeSupport {
 impl LobeKind {
     /// How many [further parameters](LobeParameters::further) the lobe has in this [form](LobeParameters::form) where it has some, and how many
     /// of them are looked up.
-    pub(crate) fn further_counts(self, form: u32) -> [usize; 2] {
+    pub fn further_counts(self, form: u32) -> [usize; 2] {
         match self {
             Self::Conductor | Self::RoughGlass | Self::RoughThinGlass => [2, 2],
             Self::Plastic => [1, 1],
@@ -349,7 +352,7 @@ impl LobeKind {
     }
 
     /// The lobe cannot do without them.
-    pub(crate) fn needs_further(self) -> bool {
+    pub fn needs_further(self) -> bool {
         matches!(self, Self::Plastic | Self::RoughPlastic | Self::Principled)
     }
 }

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
-use super::error::OutputError;
 use crate::file_identity::{folder_of, follow_links};
+use crate::output_error::OutputError;
 
 const PREFIX: &str = ".gpt-";
 const SUFFIX: &str = ".part";
@@ -135,10 +135,10 @@ impl AtomicFile {
 }
 
 /// How many names beside a file are tried.
-pub(super) const MOST_BESIDE: usize = 1000;
+pub const MOST_BESIDE: usize = 1000;
 
 /// Names that tell a file from the one in its place: `name.WORD.ending`, and then with a number, from `name.WORD-2.ending` on.
-pub(super) fn names_beside(target: &Path, word: &str) -> impl Iterator<Item = PathBuf> {
+pub fn names_beside(target: &Path, word: &str) -> impl Iterator<Item = PathBuf> {
     let [stem, ending] = [target.file_stem(), target.extension()].map(|part| part.unwrap_or_default().to_os_string());
     (1..).map(move |number| {
         let mut name = stem.clone();

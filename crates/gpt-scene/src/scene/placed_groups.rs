@@ -41,13 +41,7 @@ impl Scene {
 
     /// Checks instances of a group; the error is the mistake, in words. `textured` and `emits` have a value
     /// for each material, and `balls` a bounding ball for each group.
-    pub(crate) fn check_instances(
-        &self,
-        instances: &Instances,
-        textured: &[bool],
-        emits: &[bool],
-        balls: &[Option<Ball>],
-    ) -> Check {
+    pub fn check_instances(&self, instances: &Instances, textured: &[bool], emits: &[bool], balls: &[Option<Ball>]) -> Check {
         let Some(group) = self.groups.get(instances.group) else { return Err(format!("there is no group {}", instances.group)) };
         if let Some(place) = instances.maps().position(|map| !map.is_finite() || is_singular(map.matrix3)) {
             return Err(format!("the transform of number {place}, counted from 0, flattens it or leaves the range of numbers"));
@@ -85,12 +79,12 @@ impl Scene {
     }
 
     /// Around each group.
-    pub(crate) fn balls(&self) -> Vec<Option<Ball>> {
+    pub fn balls(&self) -> Vec<Option<Ball>> {
         self.groups.iter().map(Group::ball).collect()
     }
 
     /// No ray meets instances that are made of nothing.
-    pub(crate) fn are_visible(&self, instances: &Instances) -> bool {
+    pub fn are_visible(&self, instances: &Instances) -> bool {
         !instances.material.is_some_and(|id| matches!(self.materials[id].kind, MaterialKind::Pass))
     }
 }

@@ -11,7 +11,8 @@ pub use albedo::{
     ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, FACET_KNEE, SHEEN_KNEE, SMALLEST_SHEEN_ROUGHNESS, sheen_distribution, sheen_lambda,
 };
 pub use blend_weight::BlendWeight;
-pub(crate) use kind::material_table;
+#[doc(hidden)]
+pub use kind::material_table;
 pub use kind::{
     ANISOTROPIC, ATTENUATES, BECKMANN, COAT_NORMAL_MAP, COAT_NORMAL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
     DIRECTED, DIRECTION_PARAMETER, EXTINCTION_PARAMETER, FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind,

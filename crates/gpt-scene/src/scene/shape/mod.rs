@@ -27,6 +27,8 @@ use model::ShapeModel;
 /// A row: variant of [`Geometry`], type of its data, module, name in scene files. Then, unless it is made of another shape's primitives, its
 /// own primitive: its name; that of its files in `shaders/geometry/shape` and `shaders/shading/shape`, and of their functions; what the
 /// names of its number and switches hold; its `SurfaceSampling`, its `SurfaceCoordinates` and its `Curvature` (`packed/shape`).
+#[doc(hidden)]
+#[macro_export]
 macro_rules! shape_table {
     ($what:ident) => {
         $what! {
@@ -40,7 +42,8 @@ macro_rules! shape_table {
         }
     };
 }
-pub(crate) use shape_table;
+#[doc(hidden)]
+pub use shape_table;
 
 macro_rules! geometries {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {

@@ -17,8 +17,9 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
+use crate::atomic_file::AtomicFile;
 use crate::file_log::FileLog;
-use crate::output::{AtomicFile, OutputError};
+use crate::output_error::OutputError;
 use crate::scene::{ImportReport, Motion, Scene};
 pub use mitsuba::as_mitsuba;
 use scene_file::scene_text;

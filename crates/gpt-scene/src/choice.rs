@@ -32,6 +32,8 @@ impl Named {
 }
 
 /// Defines enums whose values people choose by name, `Variant = "name"`; the variants' doc comments are the help that people see.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! choices {
     ($($(#[$meta:meta])* $visibility:vis enum $type:ident { $($(#[doc = $doc:literal])+ $variant:ident = $name:literal,)+ })+) => {$(
         $(#[$meta])*
@@ -61,7 +63,8 @@ macro_rules! choices {
         }
     )+};
 }
-pub(crate) use choices;
+#[doc(hidden)]
+pub use choices;
 
 #[cfg(test)]
 mod tests {

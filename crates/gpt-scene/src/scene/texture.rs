@@ -145,28 +145,23 @@ impl Texture {
 }
 
 /// The mean colour over the whole texture: of a product, the product of the means.
-pub(crate) fn mean_of_texture(textures: &[Texture], id: TextureId) -> DVec3 {
+pub fn mean_of_texture(textures: &[Texture], id: TextureId) -> DVec3 {
     let by = textures[id].times.map_or(DVec3::ONE, |other| textures[other].kind.mean());
     textures[id].kind.mean() * by
 }
 
 /// The mean of one channel, likewise.
-pub(crate) fn mean_of_channel(textures: &[Texture], id: TextureId, channel: Channel) -> f64 {
+pub fn mean_of_channel(textures: &[Texture], id: TextureId, channel: Channel) -> f64 {
     let by = textures[id].times.map_or(1.0, |other| textures[other].kind.mean_of(channel));
     textures[id].kind.mean_of(channel) * by
 }
 
 /// Ranges of pictures that were looked through: many textures may show one.
 #[derive(Debug, Default)]
-pub(crate) struct KnownRanges(HashMap<(*const ImageData, Option<Channel>), (f64, f64)>);
+pub struct KnownRanges(HashMap<(*const ImageData, Option<Channel>), (f64, f64)>);
 
 /// The smallest and the largest value of a texture's channels, or of one of them: of a product, bounds. `known`: of pictures of these textures.
-pub(crate) fn range_of_texture(
-    textures: &[Texture],
-    id: TextureId,
-    channel: Option<Channel>,
-    known: &mut KnownRanges,
-) -> (f64, f64) {
+pub fn range_of_texture(textures: &[Texture], id: TextureId, channel: Option<Channel>, known: &mut KnownRanges) -> (f64, f64) {
     let mut range = |id: TextureId| {
         let kind = &textures[id].kind;
         let look = || channel.map_or_else(|| kind.range(), |channel| kind.range_of(channel));

@@ -41,6 +41,7 @@ mod presets;
 mod printable;
 mod reading;
 mod scene_file;
+mod scene_methods;
 pub mod source;
 mod spelling;
 mod toml_text;

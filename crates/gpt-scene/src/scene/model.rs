@@ -14,7 +14,7 @@ use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
 use super::sources::Sources;
 use super::texture::Texture;
-use crate::film::Layer;
+use crate::layer::Layer;
 
 /// Everything a render needs: a camera, surfaces, materials, lights, and how light is estimated. It is read by [`Scene::load`] or
 /// [`Scene::from_toml`].

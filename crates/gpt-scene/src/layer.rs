@@ -165,19 +165,4 @@ mod tests {
         assert_eq!(Layer::from_list(""), Some(Vec::new()));
         assert_eq!(Layer::from_list("albedo,gloss"), None);
     }
-
-    /// No channel of a part is two things.
-    #[test]
-    fn channels_of_parts_have_names_of_their_own() {
-        let mut names: Vec<&str> = KernelLayer::ALL
-            .map(KernelLayer::part_channels)
-            .iter()
-            .flat_map(|channels| channels.values.iter().chain(channels.remainders).copied().chain([channels.count]))
-            .chain(crate::output::part_channels())
-            .collect();
-        let count = names.len();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), count);
-    }
 }

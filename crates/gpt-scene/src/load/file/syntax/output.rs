@@ -9,7 +9,7 @@ use serde::de::{Deserializer, Error};
 use serde_json::json;
 
 use crate::choice::Choice;
-use crate::film::Layer;
+use crate::layer::Layer;
 
 /// What is written beside the picture. Command-line flags override these.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
