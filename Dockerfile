@@ -8,6 +8,7 @@ FROM rust:1-trixie AS build
 WORKDIR /source
 COPY Cargo.toml Cargo.lock ./
 COPY benches benches
+COPY crates crates
 COPY examples examples
 COPY scenes scenes
 COPY shaders shaders

@@ -1,12 +1,14 @@
 //! A headless GPU path tracer that proves its pictures against a CPU reference.
 //!
 //! ```no_run
+//! use gpt::Render;
+//!
 //! let image = gpt::Scene::load("cornell")?.render(&gpt::RenderOptions::default())?;
 //! image.save("cornell.exr")?;
 //! # Ok::<(), gpt::Error>(())
 //! ```
 //!
-//! A [`Scene`] comes from a scene file, from a model, or by the name of a built-in scene. [`Scene::render`] makes an [`Image`] of it on the
+//! A [`Scene`] comes from a scene file, from a model, or by the name of a built-in scene. [`Render::render`] makes an [`Image`] of it on the
 //! best device there is: a discrete, an integrated or a software GPU through Vulkan, Metal or Direct3D 12, else the CPU. A [`Renderer`] hands
 //! over rows as they are finished, so that memory does not grow with the picture, and tells an [`Observer`] how far it is. [`compare()`] measures
 //! how far two pictures are apart. [`verify()`] follows the same paths on the GPU and in the CPU reference and tests whether they agree.
@@ -14,6 +16,8 @@
 //! This one renders on the CPU, with settings of its own:
 //!
 //! ```
+//! use gpt::Render;
+//!
 //! let mut scene = gpt::Scene::from_toml(
 //!     r#"
 //!     [camera]
@@ -69,9 +73,6 @@
 pub mod bench;
 #[doc(hidden)]
 pub mod binary_tree;
-mod black_body;
-#[doc(hidden)]
-pub mod choice;
 #[doc(hidden)]
 pub mod compare;
 #[doc(hidden)]
@@ -84,26 +85,18 @@ pub mod device;
 #[doc(hidden)]
 pub mod emission_map;
 mod error;
-mod file_identity;
-mod file_log;
 #[doc(hidden)]
 pub mod film;
 #[doc(hidden)]
 pub mod gpu;
-mod input;
 #[doc(hidden)]
 pub mod learn;
-#[doc(hidden)]
-pub mod load;
-#[doc(hidden)]
-pub mod math;
 #[doc(hidden)]
 pub mod merge;
 #[doc(hidden)]
 pub mod output;
 #[doc(hidden)]
 pub mod packed;
-mod picture_file;
 #[doc(hidden)]
 pub mod picture_test;
 #[doc(hidden)]
@@ -117,13 +110,7 @@ pub mod renderer;
 #[doc(hidden)]
 pub mod sampling;
 #[doc(hidden)]
-pub mod scene;
-#[doc(hidden)]
-pub mod scene_writer;
-#[doc(hidden)]
 pub mod shader;
-#[doc(hidden)]
-pub mod spectrum;
 #[doc(hidden)]
 pub mod texture;
 #[doc(hidden)]
@@ -136,6 +123,10 @@ mod effort;
 #[path = "../tests/statistics/mod.rs"]
 mod statistics;
 
+use gpt_scene::{black_body, file_identity, input, picture_file};
+#[doc(hidden)]
+pub use gpt_scene::{choice, load, math, scene, scene_writer, spectrum};
+
 #[doc(inline)]
 pub use {
     compare::{Comparison, Extreme, Metric, MetricValue, SizeMismatch},
@@ -146,6 +137,7 @@ pub use {
     render::image::{Image, compare},
     render::options::RenderOptions,
     render::progressive::{Outcome, Stop},
+    render::scene::Render,
     render::stream::Renderer,
     render::verify::verify,
     renderer::{DeviceChoice, Observer, RenderReport, Silent},

@@ -1,10 +1,9 @@
 //! The results of rendering: finished rows of pixels, and layers beside them.
 
 mod count;
-mod layer;
 
 pub use count::{count_in, count_word};
-pub use layer::{KernelLayer, Layer, PartChannels};
+pub use gpt_scene::layer::{KernelLayer, Layer, PartChannels};
 
 use crate::spectrum::Spectrum;
 
@@ -121,5 +120,20 @@ mod tests {
         // Grey samples 0 and 2: their variance is (1 + 1) / (2 - 1).
         let grey = variance([1.0; 3], 2.0, 2.0);
         assert!(grey.iter().all(|variance| (variance - 2.0).abs() < 1e-12), "{grey:?}");
+    }
+
+    /// No channel of a part is two things.
+    #[test]
+    fn channels_of_parts_have_names_of_their_own() {
+        let mut names: Vec<&str> = KernelLayer::ALL
+            .map(KernelLayer::part_channels)
+            .iter()
+            .flat_map(|channels| channels.values.iter().chain(channels.remainders).copied().chain([channels.count]))
+            .chain(crate::output::part_channels())
+            .collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
     }
 }

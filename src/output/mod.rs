@@ -2,11 +2,9 @@
 //!
 //! Writers hold a few bands at a time, never the picture, so that memory does not grow with its size.
 
-mod atomic;
 mod channels;
 mod developed;
 mod display;
-mod error;
 mod exr_file;
 mod finished;
 mod format;
@@ -22,13 +20,13 @@ mod spec;
 mod temporary;
 
 pub use crate::file_identity::{FileIdentity, folder_of, follow_links};
-pub use atomic::{AtomicFile, check_target, remove_left_over, remove_unfinished};
 pub use channels::Channels;
 pub use display::{Developer, Display, Exposure, Meter, ToneCurve, srgb_byte};
-pub use error::OutputError;
 pub use exr_file::part_channels;
 pub use finished::is_finished_picture;
 pub use format::{PICTURE_ENDINGS, PictureFormat};
+pub use gpt_scene::atomic_file::{AtomicFile, check_target, remove_left_over, remove_unfinished};
+pub use gpt_scene::output_error::OutputError;
 pub use layers::{LayerChannel, LayerPicture, LayerSource, SAMPLE_COUNT, sample_variance};
 pub use picture::{PictureFile, STDOUT};
 pub use provenance::{CROP_KEY, LAYERS_KEY, Provenance};

@@ -10,8 +10,6 @@ use std::thread::{self, JoinHandle};
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
 
-use super::atomic::{AtomicFile, MOST_BESIDE, names_beside};
-use super::error::OutputError;
 use super::format::PictureFormat;
 use super::provenance::BROKEN_OFF_KEY;
 use super::rows::{Completeness, Message, Rows};
@@ -21,6 +19,8 @@ use super::{exr_file, hdr_file, jpeg_file, png_file};
 use crate::file_identity::follow_links;
 use crate::film::Band;
 use crate::input;
+use gpt_scene::atomic_file::{AtomicFile, MOST_BESIDE, names_beside};
+use gpt_scene::output_error::OutputError;
 
 /// Bands that wait for the encoder; with the one it works on and the one being rendered, this bounds the memory.
 const WAITING_BANDS: usize = 1;

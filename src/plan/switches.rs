@@ -220,12 +220,12 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
 }
 
 fn enable_sampler(switches: &mut Switches, render: &RenderSettings) {
-    let path = render.sampler.decorrelation();
+    let path = Decorrelation::of(render.sampler);
     switches.enable("SEQUENCE", path != Decorrelation::Hashed);
     switches.enable("DIGITAL_SHIFT", path == Decorrelation::DigitalShift);
     // The pixel's own, where it differs from the path's.
     let pixel = match render.pixel_sampler {
-        PixelSampler::Other(kind) if kind != render.sampler => Some(kind.decorrelation()),
+        PixelSampler::Other(kind) if kind != render.sampler => Some(Decorrelation::of(kind)),
         _ => None,
     };
     switches.enable("PIXEL_CENTRE", render.pixel_sampler == PixelSampler::Centre);

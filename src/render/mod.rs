@@ -14,7 +14,8 @@ pub mod image;
 pub mod layers;
 pub mod options;
 pub mod progressive;
-mod scene;
+#[doc(hidden)]
+pub mod scene;
 pub mod stats;
 pub mod stream;
 pub mod verify;

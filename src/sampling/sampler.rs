@@ -31,7 +31,7 @@ impl<'a> PathSampler<'a> {
     pub fn bits(&self, dimension: Dimension) -> u32 {
         let Dimension(d) = dimension;
         let Some(kind) = self.sampling.sampler_of(dimension) else { return CENTRE_BITS };
-        match (kind.decorrelation(), self.point.bits.get(d as usize)) {
+        match (Decorrelation::of(kind), self.point.bits.get(d as usize)) {
             (Decorrelation::Rotation, Some(shared)) => shared.wrapping_add(dimension_bits(self.pixel_key, d)),
             (Decorrelation::DigitalShift, Some(shared)) => shared ^ dimension_bits(self.pixel_key, d),
             _ => dimension_bits(self.path_key, d),
@@ -51,7 +51,7 @@ impl<'a> PathSampler<'a> {
         let shared = self.point.more_lights.get(((depth - 1) * (self.sampling.light_samples - 1) + number - 1) as usize);
         let bits = |axis: usize| {
             let Dimension(d) = dimensions[axis];
-            match (self.sampling.path.decorrelation(), shared) {
+            match (Decorrelation::of(self.sampling.path), shared) {
                 (Decorrelation::Rotation, Some(shared)) => shared[axis].wrapping_add(dimension_bits(self.pixel_key, d)),
                 (Decorrelation::DigitalShift, Some(shared)) => shared[axis] ^ dimension_bits(self.pixel_key, d),
                 _ => dimension_bits(self.path_key, HASHED_LIGHTS.wrapping_add(64 * (vertex + 1) + 4 * number + axis as u32)),

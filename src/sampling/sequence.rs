@@ -47,13 +47,13 @@ pub enum Decorrelation {
     Hashed,
 }
 
-impl SamplerKind {
-    #[doc(hidden)]
-    pub fn decorrelation(self) -> Decorrelation {
-        match self {
-            Self::Independent => Decorrelation::Hashed,
-            Self::Stratified | Self::Halton => Decorrelation::Rotation,
-            Self::Quadrant | Self::Sobol => Decorrelation::DigitalShift,
+impl Decorrelation {
+    /// How a sampler's pixels are made independent.
+    pub fn of(sampler: SamplerKind) -> Self {
+        match sampler {
+            SamplerKind::Independent => Self::Hashed,
+            SamplerKind::Stratified | SamplerKind::Halton => Self::Rotation,
+            SamplerKind::Quadrant | SamplerKind::Sobol => Self::DigitalShift,
         }
     }
 }
@@ -70,8 +70,8 @@ impl Sampling {
 
     /// Says that some number comes from a sequence.
     pub fn uses_sequence(&self) -> bool {
-        let pixel = matches!(self.pixel, PixelSampler::Other(kind) if kind.decorrelation() != Decorrelation::Hashed);
-        pixel || self.path.decorrelation() != Decorrelation::Hashed
+        let pixel = matches!(self.pixel, PixelSampler::Other(kind) if Decorrelation::of(kind) != Decorrelation::Hashed);
+        pixel || Decorrelation::of(self.path) != Decorrelation::Hashed
     }
 
     /// Bits that all pixels share; 0 where there are none.

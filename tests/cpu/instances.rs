@@ -9,7 +9,7 @@ use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, Plan, PlanOptions, RayQueryLimits, TraversalChoice};
 use gpt::scene::{Scene, SceneSummary};
-use gpt::{DeviceChoice, RenderOptions};
+use gpt::{DeviceChoice, Render, RenderOptions};
 
 use crate::common::files::folder_with;
 

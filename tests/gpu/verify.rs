@@ -1,6 +1,7 @@
 //! The closed forms that `gpt verify` asks a device for hold, and stop holding with each fault that has something to act on.
 
 use crate::common::device::DEVICE;
+use gpt::cpu::ReferenceRenderer;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{Fault, PlanOptions};
 use gpt::renderer::RenderError;
@@ -52,6 +53,7 @@ fn a_scene_that_is_not_valid_is_refused_by_the_device() {
         Err(RenderError::InvalidScene(invalid)) => assert_eq!(invalid.to_string(), "a disk: there is no material 99"),
         other => panic!("{other:?}"),
     }
+    assert!(matches!(ReferenceRenderer::new(&scene), Err(RenderError::InvalidScene(_))), "the reference asks too");
 }
 
 /// A normal map on a smooth and on a rough metal under a sky with a sun: one path in thirty differs by more than 10⁻⁴, and none by mistake.

@@ -5,7 +5,7 @@
 #import shading/texture/coordinates.wgsl
 #import shading/texture/texture.wgsl
 
-// The meaning of the parameters depends on the lobe: src/scene/material/kind.rs.
+// The meaning of the parameters depends on the lobe: crates/gpt-scene/src/scene/material/kind.rs.
 struct Lobe {
     // The kind, and above it the form.
     kind: u32,

@@ -1,4 +1,4 @@
-// Tables of the albedo of microfacets and fibres by the angle of the light; src/scene/material/albedo.rs
+// Tables of the albedo of microfacets and fibres by the angle of the light; crates/gpt-scene/src/scene/material/albedo.rs
 // makes them.
 #import core/layout.wgsl
 #import geometry/scene.wgsl

@@ -1,4 +1,4 @@
-// Images, looked up by uv. Their texels are stored as they came from the file (src/scene/image.rs), and
+// Images, looked up by uv. Their texels are stored as they came from the file (crates/gpt-scene/src/scene/image.rs), and
 // turned into linear colours here.
 #import core/layout.wgsl
 #import core/math.wgsl

@@ -82,8 +82,10 @@ where vertices run counter-clockwise for triangles.
 /// The whole page; `remake` is the command that makes it.
 pub fn page(schema: &Value, remake: &str) -> String {
     let mut page = Page { schema, text: String::new(), sections: Vec::new() };
-    let _ =
-        write!(page.text, "<!-- Made by `{remake}`: change src/load/file/syntax and src/scene/settings, not this page. -->\n\n");
+    let _ = write!(
+        page.text,
+        "<!-- Made by `{remake}`: change crates/gpt-scene/src/load/file/syntax and crates/gpt-scene/src/scene/settings, not this page. -->\n\n"
+    );
     let _ = write!(page.text, "# Scene files\n\n{}\n\n{CONVENTIONS}\n```toml\n{EXAMPLE}```\n", description(schema));
     for (name, table) in entries(schema, "properties").filter(|(_, table)| table["type"] != "integer") {
         match table.get("items") {

@@ -38,7 +38,7 @@ fn places(folder: &Path, found: &mut Vec<String>) {
 #[test]
 fn comments_begin_with_their_subject() {
     let mut found = Vec::new();
-    for folder in ["src", "shaders"] {
+    for folder in ["src", "crates", "shaders"] {
         places(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut found);
     }
     found.sort();

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use gpt::load::{LoadOptions, SceneError, load_with};
 use gpt::scene::Scene;
-use gpt::{DeviceChoice, RenderOptions};
+use gpt::{DeviceChoice, Render, RenderOptions};
 
 /// A folder with files.
 struct Folder(tempfile::TempDir);

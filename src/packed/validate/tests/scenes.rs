@@ -7,6 +7,7 @@ use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 use crate::load::file::delta_light_examples;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
+use crate::packed::light::LightKind;
 use crate::sampling::light_cells::table;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
@@ -195,6 +196,7 @@ fn everything() -> Scene {
     scene.materials.push(Material { emission, ..plain("screen", MaterialKind::Emissive) });
     scene.shapes.push(shape(sheet(7.0), last + 1));
     scene.lights = delta_light_examples().into_iter().map(|(_, light)| light).collect();
+    assert!(scene.lights.len() >= LightKind::DELTA.len(), "every kind has an example: {:?}", scene.lights);
     for light in &mut scene.lights {
         match light {
             Light::Spot(spot) => spot.picture = Some(ThrownPicture { texture: 1, up: DVec3::X }),

@@ -1,5 +1,7 @@
 //! Surfaces seen from behind, outlines, hidden nodes, and nodes that leave no volume.
 
+use gpt::Render;
+
 use super::*;
 
 /// A square from −1 to 1 that faces +Z, a cube from −1 to 1 that faces outward, and both in other sizes and turned inside out; of one material.

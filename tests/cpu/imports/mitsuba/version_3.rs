@@ -2,7 +2,7 @@
 
 use gpt::scene::{Camera, EnvironmentRadiance, Geometry, Light, MaterialKind, Texture, TextureKind};
 use gpt::spectrum::Spectrum;
-use gpt::{DeviceChoice, RenderOptions};
+use gpt::{DeviceChoice, Render, RenderOptions};
 
 use super::super::{Folder, picture, report};
 use super::{SCENE, with};

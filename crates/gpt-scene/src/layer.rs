@@ -1,0 +1,168 @@
+//! Layers that a render can give beside the picture.
+
+use crate::choice::{Choice, choices};
+
+choices! {
+    /// A layer, as people ask for it: one channel or more of an EXR file.
+    pub enum Layer {
+        /// Share of light that the surface reflects, seen in mirrors and through glass; 0 where nothing is met: Albedo.R, .G, .B.
+        Albedo = "albedo",
+        /// Shading normal in the world, towards the viewer, seen in mirrors and through glass: N.X, .Y, .Z.
+        Normal = "normal",
+        /// The place of the first surface in the world: P.X, .Y, .Z.
+        Position = "position",
+        /// Distance of the first surface along the viewing direction: Z.
+        Depth = "depth",
+        /// Share of the pixel in which a surface is met, by which R, G and B are multiplied already: A.
+        Alpha = "alpha",
+        /// Variance of a sample of R, G and B; the pixel's is smaller by the number of samples: Variance.R, .G, .B.
+        Variance = "variance",
+        /// Samples of the pixel: SampleCount.
+        Samples = "samples",
+        /// Light that the first surface sends on: Direct.R, .G, .B.
+        Direct = "direct",
+        /// Light of more edges: Indirect.R, .G, .B.
+        Indirect = "indirect",
+        /// Light that emitters and surroundings send to the camera: Emission.R, .G, .B. Direct, indirect
+        /// and emission add up to the picture.
+        Emission = "emission",
+        /// Number of the shape and of the material at the pixel's centre, from 1; 0 where nothing is met: ObjectId, MaterialId.
+        Ids = "ids",
+        /// Objects and materials with the share of the pixel that each covers, for compositing programs, after the Cryptomatte specification:
+        /// CryptoObject00 to 02, CryptoMaterial00 to 02.
+        Cryptomatte = "cryptomatte",
+    }
+
+    /// A quantity that kernels sum in place of radiance.
+    pub enum KernelLayer {
+        /// Reflectance of surfaces.
+        Albedo = "albedo",
+        /// Shading normals.
+        Normal = "normal",
+        /// Points of surfaces.
+        Position = "position",
+        /// Distances along the viewing direction.
+        Depth = "depth",
+        /// Squares of radiance.
+        Squares = "squares",
+        /// Light of two edges.
+        Direct = "direct",
+        /// Light of more than two edges.
+        Indirect = "indirect",
+        /// Light of one edge.
+        Emission = "emission",
+    }
+}
+
+/// Channels of a part of a picture in which a kernel's layer stands, so that parts can be joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PartChannels {
+    /// Means, and what rounding to them lost; one to three of each.
+    pub values: &'static [&'static str],
+    pub remainders: &'static [&'static str],
+    /// How many samples the means are over.
+    pub count: &'static str,
+}
+
+macro_rules! part_channels {
+    ($layer:literal: $($value:literal)*) => {
+        PartChannels {
+            values: &[$($value),*],
+            remainders: &[$(concat!("Remainder.", $value)),*],
+            count: concat!("SampleCount.", $layer),
+        }
+    };
+}
+
+impl Layer {
+    /// The layer that kernels render for it. None where it needs nothing beside the picture, or no samples.
+    pub fn kernel(self) -> Option<KernelLayer> {
+        match self {
+            Self::Albedo => Some(KernelLayer::Albedo),
+            Self::Normal => Some(KernelLayer::Normal),
+            Self::Position => Some(KernelLayer::Position),
+            Self::Depth | Self::Alpha => Some(KernelLayer::Depth),
+            Self::Variance => Some(KernelLayer::Squares),
+            Self::Direct => Some(KernelLayer::Direct),
+            Self::Indirect => Some(KernelLayer::Indirect),
+            Self::Emission => Some(KernelLayer::Emission),
+            Self::Samples | Self::Ids | Self::Cryptomatte => None,
+        }
+    }
+
+    /// Layers as headers of files have them: each once, in the order of their table.
+    pub fn list(layers: &[Self]) -> String {
+        let names: Vec<&str> = Self::ALL.into_iter().filter(|layer| layers.contains(layer)).map(Choice::name).collect();
+        names.join(",")
+    }
+
+    /// The layers of such a list; None where it names something else.
+    pub fn from_list(list: &str) -> Option<Vec<Self>> {
+        list.split(',').filter(|name| !name.is_empty()).map(Self::from_name).collect()
+    }
+}
+
+impl KernelLayer {
+    /// Its channels in parts.
+    pub fn part_channels(self) -> PartChannels {
+        match self {
+            Self::Albedo => part_channels!("Albedo": "Albedo.R" "Albedo.G" "Albedo.B"),
+            Self::Normal => part_channels!("N": "N.X" "N.Y" "N.Z"),
+            Self::Position => part_channels!("P": "P.X" "P.Y" "P.Z"),
+            Self::Depth => part_channels!("Z": "Z"),
+            Self::Squares => part_channels!("Square": "Square.R" "Square.G" "Square.B"),
+            Self::Direct => part_channels!("Direct": "Direct.R" "Direct.G" "Direct.B"),
+            Self::Indirect => part_channels!("Indirect": "Indirect.R" "Indirect.G" "Indirect.B"),
+            Self::Emission => part_channels!("Emission": "Emission.R" "Emission.G" "Emission.B"),
+        }
+    }
+
+    /// True for layers of the surfaces that paths meet, not of light. Their means are over the samples that
+    /// met something.
+    pub fn is_of_surfaces(self) -> bool {
+        matches!(self, Self::Albedo | Self::Normal | Self::Position | Self::Depth)
+    }
+
+    /// True for layers of the first surface, not of what is seen in it.
+    pub fn is_of_first_surface(self) -> bool {
+        matches!(self, Self::Position | Self::Depth)
+    }
+
+    /// True if light that reaches the camera over so many edges belongs to it.
+    pub fn holds_light(self, edges: u32) -> bool {
+        match self {
+            Self::Emission => edges == 1,
+            Self::Direct => edges == 2,
+            Self::Indirect => edges > 2,
+            _ => true,
+        }
+    }
+
+    /// The switches of its kernels.
+    pub fn switches(self) -> &'static [&'static str] {
+        match self {
+            Self::Albedo => &["LAYER_ALBEDO", "LAYER_OF_SURFACES"],
+            Self::Normal => &["LAYER_NORMAL", "LAYER_OF_SURFACES"],
+            Self::Position => &["LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES", "LAYER_POSITION"],
+            Self::Depth => &["LAYER_DEPTH", "LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES"],
+            Self::Squares => &["LAYER_SQUARES"],
+            Self::Direct => &["LAYER_DIRECT"],
+            Self::Indirect => &["LAYER_INDIRECT"],
+            Self::Emission => &["LAYER_EMISSION"],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_layers_come_back() {
+        let layers = [Layer::Depth, Layer::Albedo, Layer::Depth];
+        assert_eq!(Layer::list(&layers), "albedo,depth");
+        assert_eq!(Layer::from_list("albedo,depth"), Some(vec![Layer::Albedo, Layer::Depth]));
+        assert_eq!(Layer::from_list(""), Some(Vec::new()));
+        assert_eq!(Layer::from_list("albedo,gloss"), None);
+    }
+}

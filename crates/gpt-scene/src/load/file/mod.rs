@@ -1,0 +1,40 @@
+//! Scene files: from TOML text to a [`Scene`](crate::scene::Scene).
+//!
+//! `document` reads the text into the types of `syntax`, which know every key and range; `resolve` looks up names and reads the
+//! files that are named. Each complains about the place where the mistake is written.
+
+pub(super) mod colour;
+mod document;
+pub(super) mod import;
+pub(super) mod instance;
+pub(super) mod keyframes;
+pub(super) mod light;
+mod lit_instances;
+pub(super) mod material;
+mod nested;
+pub(super) mod node;
+mod place_file;
+mod reader;
+pub(super) mod reference;
+mod resolve;
+mod resolver;
+mod schema;
+pub(super) mod shape;
+mod suggestion;
+pub(super) mod syntax;
+pub(super) mod value;
+pub(crate) mod writer;
+
+pub(crate) use document::FORMAT_VERSION;
+pub(super) use document::{Document, stem};
+pub use light::delta_examples as delta_light_examples;
+pub(crate) use light::write_light;
+pub use light::{examples as light_examples, examples_of as light_examples_of, strength_key};
+pub use material::examples as material_examples;
+pub(crate) use material::write_kind;
+pub(crate) use place_file::{place_rows, write_places};
+pub(super) use resolve::{resolve, resolve_model, resolve_transform};
+pub use schema::{json_schema, make_json_schema};
+pub use shape::examples as shape_examples;
+pub(crate) use shape::write_geometry;
+pub(super) use suggestion::{did_you_mean, did_you_mean_name};

@@ -1,0 +1,304 @@
+//! The types of materials, and the lobes that they scatter by.
+
+use super::blend_weight::BlendWeight;
+use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
+use super::parameters::{self, ParameterType, place};
+use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
+use super::principled::Principled;
+use super::table::{LobeKind, MaterialId, material_table};
+use crate::scene::texture::ColorInput;
+use crate::spectrum::Spectrum;
+
+/// The material of a surface, with its parameters.
+#[derive(Debug, Clone)]
+pub enum MaterialKind {
+    /// Lambert: f = ρ/π.
+    Diffuse { reflectance: ColorInput },
+    /// Perfect mirror.
+    Mirror { reflectance: ColorInput },
+    /// Cosine-power lobe about the mirror direction: f = ρ (n+2)/(2π) cosⁿα.
+    Glossy { reflectance: ColorInput, exponent: ColorInput },
+    /// Modified Phong (Lafortune and Willems 1994).
+    Phong { diffuse: ColorInput, specular: ColorInput, exponent: ColorInput },
+    /// Smooth dielectric with exact Fresnel equations. `ior` is inside over outside, the outside being where the normal points; a `thin` one
+    /// is a plate of both boundaries, which light crosses without changing its direction.
+    Glass { ior: f64, reflectance: ColorInput, transmittance: ColorInput, thin: bool },
+    /// Rough dielectric; of a `thin` one every microfacet is a thin plate.
+    RoughGlass { ior: f64, facets: Microfacets, reflectance: ColorInput, transmittance: ColorInput, thin: bool },
+    /// A diffuse base below a dielectric surface; `nonlinear` takes account of how the colour deepens as light goes up and down within.
+    Plastic { interface: PlasticInterface, reflectance: ColorInput, specular_reflectance: ColorInput, nonlinear: bool },
+    /// Conductor of microfacets, smooth where their width is 0. What it reflects is multiplied by `specular_reflectance`.
+    Conductor { fresnel: ConductorFresnel, facets: Microfacets, specular_reflectance: ColorInput },
+    /// The material of glTF 2.0's Appendix B.
+    Principled(Box<Principled>),
+    /// Reflects nothing; what it emits is the material's `emission`.
+    Emissive,
+    /// w0·first + (1 − w0)·second.
+    Blend { materials: [MaterialId; 2], weight: BlendWeight },
+    /// The ray goes on as if nothing were there.
+    Pass,
+}
+
+#[derive(Debug, Clone)]
+pub enum ConductorFresnel {
+    /// Complex index of refraction eta + ik, per RGB channel.
+    Complex { eta: Spectrum, k: Spectrum },
+    /// Schlick's approximation from the reflectance at normal incidence.
+    Reflectance(ColorInput),
+}
+
+/// A lobe and its parameters, in the slots that tables of materials have for them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LobeParameters {
+    pub lobe: LobeKind,
+    /// Which of its forms the lobe has, where it has several: bits.
+    pub form: u32,
+    /// The reflected colour; a diffuse share of it; or the real part of a complex index of refraction.
+    pub color0: ColorInput,
+    /// The transmitted colour; a specular share of the reflected one; or the imaginary part of a complex
+    /// index of refraction.
+    pub color1: Option<ColorInput>,
+    /// The width of a distribution of microfacets, or the exponent of a power of a cosine.
+    pub roughness: Option<ColorInput>,
+    pub ior: Option<f64>,
+    /// The first of the lobe's [further parameters](LobeKind::parameters); none where the defaults of all
+    /// hold.
+    pub further: Vec<ColorInput>,
+    /// The [transmittance of rough plastic's surface](PlasticInterface::transmittance_table).
+    pub table: Vec<f32>,
+}
+
+/// Bits of [`LobeParameters::form`]: the colours of a conductor are its complex index of refraction.
+pub const COMPLEX_FRESNEL: u32 = 1;
+/// The slopes of the microfacets are normally distributed.
+pub const BECKMANN: u32 = 2;
+/// Microfacets are masked from one side whether or not they are from the other.
+pub const SEPARABLE_MASKING: u32 = 4;
+/// The colour of plastic deepens as light goes up and down within.
+pub const NONLINEAR: u32 = 8;
+/// The width across the tangent is the square of the texture.
+pub const SQUARED_ACROSS: u32 = 16;
+/// Microfacets have two widths, one of them across the tangent.
+pub const ANISOTROPIC: u32 = 32;
+/// The flag of a wall without thickness that lets light through.
+pub const THIN_WALL: u32 = 64;
+/// The lobe lets light through.
+pub const TRANSMITS: u32 = 128;
+/// Light that microfacets send to each other is not lost.
+pub const COMPENSATED: u32 = 256;
+/// Fibres stand on the surface.
+pub const SHEEN: u32 = 512;
+/// The coat has a normal map of its own.
+pub const COAT_NORMAL_MAP: u32 = 2048;
+/// The direction in which microfacets are wider comes from a texture.
+pub const DIRECTED: u32 = 4096;
+/// All of these.
+pub const FORMS: u32 = COMPLEX_FRESNEL
+    | BECKMANN
+    | SEPARABLE_MASKING
+    | NONLINEAR
+    | SQUARED_ACROSS
+    | ANISOTROPIC
+    | THIN_WALL
+    | TRANSMITS
+    | COMPENSATED
+    | SHEEN
+    | COAT_NORMAL_MAP
+    | DIRECTED;
+
+/// Entries that the transmittance of rough plastic takes.
+const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
+
+impl LobeParameters {
+    /// A lobe with one colour.
+    fn new(lobe: LobeKind, color0: ColorInput) -> Self {
+        Self { lobe, form: 0, color0, color1: None, roughness: None, ior: None, further: Vec::new(), table: Vec::new() }
+    }
+
+    /// The lobe with microfacets, but for their width across the tangent, which is a further parameter.
+    fn with_facets(self, facets: &Microfacets) -> Self {
+        let form = if facets.distribution == MicrofacetDistribution::Beckmann { BECKMANN } else { 0 }
+            | if facets.masking == Masking::Separable { SEPARABLE_MASKING } else { 0 }
+            | if facets.alpha_v.is_some() { ANISOTROPIC } else { 0 }
+            | if facets.alpha_v.is_some_and(|across| across.is_squared()) { SQUARED_ACROSS } else { 0 };
+        Self { roughness: Some(facets.alpha), form: self.form | form, ..self }
+    }
+
+    /// All parameters that may come from textures.
+    pub fn inputs(&self) -> impl Iterator<Item = (ParameterType, ColorInput)> {
+        let colors = [Some(self.color0), self.color1].into_iter().flatten().map(|color| (ParameterType::Color, color));
+        let further = self.lobe.parameters().iter().map(|parameter| parameter.parameter_type).zip(self.further.iter().copied());
+        colors.chain(self.roughness.map(|roughness| (ParameterType::Scalar, roughness))).chain(further)
+    }
+}
+
+impl MaterialKind {
+    /// The lobe that the material scatters by; None of a material that scatters nothing, or by its parts.
+    pub fn lobe(&self) -> Option<LobeParameters> {
+        Some(match *self {
+            Self::Diffuse { reflectance } => LobeParameters::new(LobeKind::Diffuse, reflectance),
+            Self::Mirror { reflectance } => LobeParameters::new(LobeKind::Mirror, reflectance),
+            Self::Glossy { reflectance, exponent } => {
+                LobeParameters { roughness: Some(exponent), ..LobeParameters::new(LobeKind::Glossy, reflectance) }
+            }
+            Self::Phong { diffuse, specular, exponent } => LobeParameters {
+                color1: Some(specular),
+                roughness: Some(exponent),
+                ..LobeParameters::new(LobeKind::Phong, diffuse)
+            },
+            Self::Glass { ior, reflectance, transmittance, thin } => LobeParameters {
+                color1: Some(transmittance),
+                ior: Some(ior),
+                ..LobeParameters::new(if thin { LobeKind::ThinGlass } else { LobeKind::Glass }, reflectance)
+            },
+            Self::RoughGlass { ior, facets, reflectance, transmittance, thin } => {
+                let lobe = match (facets.distribution, thin) {
+                    (MicrofacetDistribution::Phong, _) => LobeKind::PhongGlass,
+                    (_, true) if facets.are_smooth() => LobeKind::ThinGlass,
+                    (_, true) => LobeKind::RoughThinGlass,
+                    (_, false) if facets.are_smooth() || (ior - 1.0).abs() < SMALLEST_BEND => LobeKind::Glass,
+                    (_, false) => LobeKind::RoughGlass,
+                };
+                let glass =
+                    LobeParameters { color1: Some(transmittance), ior: Some(ior), ..LobeParameters::new(lobe, reflectance) };
+                if matches!(lobe, LobeKind::Glass | LobeKind::ThinGlass) {
+                    return Some(LobeParameters { roughness: Some(facets.alpha), ..glass });
+                }
+                let further = facets.alpha_v.map(|width_across| match lobe {
+                    LobeKind::RoughThinGlass => parameters::RoughThinGlass { width_across }.list(),
+                    _ => parameters::RoughGlass { width_across }.list(),
+                });
+                LobeParameters { further: further.unwrap_or_default(), ..glass.with_facets(&facets) }
+            }
+            Self::Plastic { ref interface, reflectance, specular_reflectance, nonlinear } => {
+                let internal_reflectance = ColorInput::grey(interface.internal_reflectance());
+                let (lobe, further) = match interface.is_rough() {
+                    true => (LobeKind::RoughPlastic, parameters::RoughPlastic { internal_reflectance }.list()),
+                    false => (LobeKind::Plastic, parameters::Plastic { internal_reflectance }.list()),
+                };
+                let facets = Microfacets {
+                    alpha: ColorInput::grey(interface.alpha),
+                    alpha_v: None,
+                    distribution: interface.distribution,
+                    masking: interface.masking,
+                };
+                LobeParameters {
+                    form: if nonlinear { NONLINEAR } else { 0 },
+                    color1: Some(specular_reflectance),
+                    ior: Some(interface.ior),
+                    further,
+                    table: interface.transmittance_table().map_or_else(Vec::new, |table| table.to_vec()),
+                    ..LobeParameters::new(lobe, reflectance)
+                }
+                .with_facets(&facets)
+            }
+            Self::Conductor { ref fresnel, facets, specular_reflectance } => {
+                let (form, color0, color1) = match *fresnel {
+                    ConductorFresnel::Complex { eta, k } => {
+                        (COMPLEX_FRESNEL, ColorInput::Constant(eta), Some(ColorInput::Constant(k)))
+                    }
+                    ConductorFresnel::Reflectance(reflectance) => (0, reflectance, None),
+                };
+                let has_defaults = facets.alpha_v.is_none() && specular_reflectance == ColorInput::grey(1.0);
+                let width_across = facets.alpha_v.unwrap_or(facets.alpha);
+                let further = parameters::Conductor { width_across, specular_reflectance }.list();
+                let further = if has_defaults { Vec::new() } else { further };
+                LobeParameters { form, color1, further, ..LobeParameters::new(LobeKind::Conductor, color0) }.with_facets(&facets)
+            }
+            Self::Principled(ref principled) => principled.lobe(),
+            Self::Pass => LobeParameters::new(LobeKind::Null, ColorInput::grey(0.0)),
+            Self::Emissive | Self::Blend { .. } => return None,
+        })
+    }
+}
+
+/// The place of the texels of its coat's normals.
+pub const COAT_TEXEL_PARAMETER: usize = place!(Principled.coat_texel);
+
+/// The number of further parameters of the principled lobe in a form.
+fn further_of_principled(form: u32) -> usize {
+    let last = match form {
+        form if form & DIRECTED != 0 => place!(Principled.direction_texel),
+        form if form & COAT_NORMAL_MAP != 0 => place!(Principled.coat_scale),
+        form if form & SHEEN != 0 => place!(Principled.sheen_roughness),
+        _ => place!(Principled.rotation),
+    };
+    last + 1
+}
+
+impl Principled {
+    fn lobe(&self) -> LobeParameters {
+        let zero = ColorInput::grey(0.0);
+        let turned = self.anisotropy_rotation_degrees.to_radians();
+        let direction = self.anisotropy_direction.filter(|_| self.anisotropy.is_some());
+        let form = if self.masking == Masking::Separable { SEPARABLE_MASKING } else { 0 }
+            | if self.anisotropy.is_some() { ANISOTROPIC } else { 0 }
+            | if self.thin { THIN_WALL } else { 0 }
+            | if self.transmission == zero { 0 } else { TRANSMITS }
+            | if self.energy_compensation { COMPENSATED } else { 0 }
+            | if self.sheen_color == zero { 0 } else { SHEEN }
+            | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 }
+            | if direction.is_some() { DIRECTED } else { 0 };
+        let mut further = parameters::Principled {
+            metallic: self.metallic,
+            specular: self.specular,
+            transmission: self.transmission,
+            coat: self.clearcoat,
+            coat_roughness: self.clearcoat_roughness,
+            anisotropy: self.anisotropy.unwrap_or(zero),
+            rotation: ColorInput::Constant(Spectrum::new(turned.cos(), turned.sin(), 0.0)),
+            sheen_color: self.sheen_color,
+            sheen_roughness: self.sheen_roughness,
+            coat_texel: self.coat_normal_map.map_or(zero, |map| ColorInput::Texture(map.texture)),
+            coat_scale: self.coat_normal_map.map_or(zero, |map| ColorInput::grey(map.scale)),
+            direction_texel: direction.map_or(zero, ColorInput::Texture),
+        }
+        .list();
+        further.truncate(further_of_principled(form));
+        LobeParameters {
+            form,
+            color1: Some(self.specular_color),
+            roughness: Some(self.roughness),
+            ior: Some(self.ior),
+            further,
+            ..LobeParameters::new(LobeKind::Principled, self.base_color)
+        }
+    }
+}
+
+/// An index of refraction nearer to 1 than this bends no ray that rounding would not: such glass sends light straight on, however rough.
+pub const SMALLEST_BEND: f64 = 1e-4;
+
+impl LobeKind {
+    /// The number of [further parameters](LobeParameters::further) of a lobe in this
+    /// [form](LobeParameters::form) where it has some, and of the entries that its
+    /// [table](LobeParameters::table) takes behind them.
+    pub fn further_counts(self, form: u32) -> [usize; 2] {
+        match self {
+            Self::Principled => [further_of_principled(form), 0],
+            Self::RoughPlastic => [self.parameters().len(), TRANSMITTANCE_ENTRIES],
+            _ => [self.parameters().len(), 0],
+        }
+    }
+
+    /// The lobe cannot do without them.
+    pub fn needs_further(self) -> bool {
+        self.parameters().iter().any(|parameter| parameter.default.is_none())
+    }
+}
+
+/// The column of the table of materials about their types in scene files.
+macro_rules! type_names {
+    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
+        impl MaterialKind {
+            /// All types, as scene files write them.
+            pub const TYPE_NAMES: &'static [&'static str] = &[$(stringify!($type_name)),*];
+
+            /// The type's name in scene files.
+            pub fn type_name(&self) -> &'static str {
+                match self { $(Self::$material { .. } => stringify!($type_name)),* }
+            }
+        }
+    };
+}
+material_table!(type_names);

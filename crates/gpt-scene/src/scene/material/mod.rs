@@ -1,0 +1,96 @@
+//! The materials of surfaces.
+
+mod albedo;
+mod blend_weight;
+mod kind;
+mod microfacets;
+mod parameters;
+mod plastic;
+pub mod principled;
+mod table;
+
+pub use albedo::{
+    ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, FACET_KNEE, SHEEN_KNEE, SMALLEST_SHEEN_ROUGHNESS, sheen_distribution, sheen_lambda,
+};
+pub use blend_weight::BlendWeight;
+pub use kind::{
+    ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel, DIRECTED,
+    FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL,
+    TRANSMITS,
+};
+pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
+pub use parameters::{Parameter, ParameterType};
+pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
+pub use principled::{Attenuation, CoatNormalMap, Principled};
+#[doc(hidden)]
+pub use table::material_table;
+pub use table::{LobeKind, LobeSupport, MaterialId};
+
+use super::texture::{ColorInput, TextureId};
+
+#[derive(Debug, Clone)]
+pub struct Material {
+    pub name: String,
+    pub kind: MaterialKind,
+    /// Tangent-space normals; a texture whose colour space is linear.
+    pub normal_map: Option<TextureId>,
+    /// Radiance the surface sends out by itself, whatever it reflects.
+    pub emission: Option<Emission>,
+    /// Both sides scatter light. Else the back is black, whatever the material is made of.
+    pub two_sided: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Emission {
+    pub radiance: ColorInput,
+    /// Emission leaves the front only, unless this is set.
+    pub two_sided: bool,
+}
+
+impl Material {
+    /// The material itself, not those it blends, sends light that comes from one direction into one direction or nearly, or through a body: no light
+    /// sample of a surface beyond finds the lamp that it comes from.
+    pub fn gathers_light(&self) -> bool {
+        match &self.kind {
+            MaterialKind::Mirror { .. } | MaterialKind::Glass { .. } | MaterialKind::RoughGlass { .. } => true,
+            MaterialKind::Conductor { facets, .. } => facets.are_smooth(),
+            MaterialKind::Principled(principled) => principled.transmission != ColorInput::grey(0.0),
+            _ => false,
+        }
+    }
+
+    /// Made of other materials.
+    pub fn is_blend(&self) -> bool {
+        matches!(self.kind, MaterialKind::Blend { .. })
+    }
+
+    /// The two materials of a blend, else none.
+    pub fn parts(&self) -> &[MaterialId] {
+        match &self.kind {
+            MaterialKind::Blend { materials, .. } => materials,
+            _ => &[],
+        }
+    }
+
+    /// The material itself, not those it blends, depends on the directions in which texture coordinates grow, where there are some.
+    pub fn is_anisotropic(&self) -> bool {
+        match &self.kind {
+            MaterialKind::RoughGlass { facets, .. } | MaterialKind::Conductor { facets, .. } => facets.alpha_v.is_some(),
+            MaterialKind::Principled(principled) => principled.anisotropy.is_some(),
+            _ => false,
+        }
+    }
+
+    /// The material itself, not those it blends, has a coat with a normal map of its own.
+    pub fn has_coat_normal_map(&self) -> bool {
+        matches!(&self.kind, MaterialKind::Principled(principled) if principled.is_coated() && principled.coat_normal_map.is_some())
+    }
+
+    /// The material itself, not those it blends, looks up a texture.
+    pub fn uses_texture(&self) -> bool {
+        let weight = matches!(&self.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());
+        let of_lobe = self.kind.lobe().is_some_and(|lobe| lobe.inputs().any(|(_, input)| input.is_texture()));
+        let of_emission = self.emission.is_some_and(|emission| emission.radiance.is_texture());
+        weight || of_lobe || of_emission || self.normal_map.is_some()
+    }
+}

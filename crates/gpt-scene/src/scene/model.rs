@@ -1,0 +1,147 @@
+//! The scene itself.
+
+use std::sync::Arc;
+
+use glam::DMat3;
+
+use super::animation::Animation;
+use super::camera::Camera;
+use super::import_report::ImportReport;
+use super::instance::{Group, Instances};
+use super::light::{Environment, EnvironmentRadiance, Light};
+use super::material::{Material, MaterialId, MaterialKind};
+use super::settings::{FilmSettings, RenderSettings};
+use super::shape::Shape;
+use super::sources::Sources;
+use super::texture::Texture;
+use crate::layer::Layer;
+
+/// Everything a render needs: a camera, surfaces, materials, lights, and how light is estimated. It is read by [`Scene::load`] or
+/// [`Scene::from_toml`].
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// File stem or built-in name; the default output is `name.exr`.
+    pub name: String,
+    /// The picture's size and reconstruction filter.
+    pub film: FilmSettings,
+    /// How light is estimated, and by how many samples.
+    pub render: RenderSettings,
+    /// Layers that are written beside the picture.
+    #[doc(hidden)]
+    pub layers: Vec<Layer>,
+    #[doc(hidden)]
+    pub camera: Camera,
+    /// The camera at [`EXPOSURE_STRETCHES`](crate::scene::EXPOSURE_STRETCHES) + 1 times, evenly from the shutter's opening to its closing, between
+    /// which it moves evenly; empty where it rests meanwhile.
+    #[doc(hidden)]
+    pub exposure: Vec<Camera>,
+    #[doc(hidden)]
+    pub textures: Vec<Texture>,
+    #[doc(hidden)]
+    pub materials: Vec<Material>,
+    #[doc(hidden)]
+    pub shapes: Vec<Shape>,
+    /// Meshes that are stored once, and where they stand.
+    #[doc(hidden)]
+    pub groups: Vec<Group>,
+    #[doc(hidden)]
+    pub instances: Vec<Instances>,
+    /// Lights that are not surfaces. Surfaces emit through their material.
+    #[doc(hidden)]
+    pub lights: Vec<Light>,
+    /// Parts that could not be taken as written and were replaced or left out, in sentences that name the
+    /// file.
+    pub warnings: Vec<String>,
+    /// Parts of an imported file that are not rendered exactly.
+    #[doc(hidden)]
+    pub import_report: ImportReport,
+    /// The keyframes, by which parts of the scene are elsewhere at another frame; see [`Scene::at_frame`].
+    #[doc(hidden)]
+    pub animation: Arc<Animation>,
+    /// The first poses, in a frame in which shapes or lights may be elsewhere than in others: the shapes with keyframes, each as it is turned and scaled at the first frame of all keys. Trees are built in these poses and then follow. None for the scene at rest.
+    #[doc(hidden)]
+    pub first_poses: Option<Arc<[(usize, DMat3)]>>,
+    /// The files that meshes and pictures came from.
+    #[doc(hidden)]
+    pub sources: Sources,
+}
+
+impl Scene {
+    /// Something gives light: a light, or a surface whose material emits.
+    #[doc(hidden)]
+    pub fn has_light(&self) -> bool {
+        if !self.lights.is_empty() {
+            return true;
+        }
+        let emitting = self.materials_that(|part| part.emission.is_some());
+        self.shapes.iter().any(|shape| shape.materials().any(|id| emitting[id]))
+    }
+
+    /// Lamps or pictures around the scene shine through glass or by mirrors onto what else there is: paths meet such light by chance, and where few do,
+    /// what they have seen says little of what there is.
+    #[doc(hidden)]
+    pub fn has_light_by_chance(&self) -> bool {
+        let [gathering, emitting] = [Material::gathers_light as fn(&Material) -> bool, |material| material.emission.is_some()]
+            .map(|wanted| self.materials_that(wanted));
+        let shapes = || self.shapes.iter().chain(self.groups.iter().flat_map(|group| &group.shapes));
+        let is_shown = |which: &[bool]| shapes().any(|shape| shape.materials().any(|id| which[id]));
+        let is_map =
+            |light: &Light| matches!(light, Light::Environment(Environment { radiance: EnvironmentRadiance::Map(_), .. }));
+        is_shown(&gathering) && (is_shown(&emitting) || self.lights.iter().any(is_map))
+    }
+
+    /// For each material, true if it, or one of those that it blends at any depth, is as `wanted`. The search goes from those that are up to all that are made of them, so the time does not depend on how deep blends are nested.
+    #[doc(hidden)]
+    pub fn materials_that(&self, wanted: impl Fn(&Material) -> bool) -> Vec<bool> {
+        let mut wholes: Vec<Vec<MaterialId>> = vec![Vec::new(); self.materials.len()];
+        for (id, material) in self.materials.iter().enumerate() {
+            // Parts that do not exist are for the check of the scene to refuse.
+            material.parts().iter().for_each(|&part| wholes.get_mut(part).into_iter().for_each(|wholes| wholes.push(id)));
+        }
+        let mut found: Vec<bool> = self.materials.iter().map(wanted).collect();
+        let mut to_visit: Vec<MaterialId> = (0..found.len()).filter(|&id| found[id]).collect();
+        while let Some(id) = to_visit.pop() {
+            for &whole in &wholes[id] {
+                if !std::mem::replace(&mut found[whole], true) {
+                    to_visit.push(whole);
+                }
+            }
+        }
+        found
+    }
+
+    /// For each material, true if its coat, or that of one that it blends at any depth, lies about another normal than the base below it.
+    #[doc(hidden)]
+    pub fn coat_normals_differ(&self) -> Vec<bool> {
+        let is_coated =
+            |material: &Material| matches!(&material.kind, MaterialKind::Principled(principled) if principled.is_coated());
+        let coated = self.materials_that(is_coated);
+        let mapped = self.materials_that(Material::has_coat_normal_map);
+        let differs = |id: MaterialId| mapped[id] || (coated[id] && self.materials[id].normal_map.is_some());
+        (0..self.materials.len()).map(differs).collect()
+    }
+
+    /// The material emits, by itself or through a part of it.
+    #[doc(hidden)]
+    pub fn emits(&self, material: MaterialId) -> bool {
+        self.any_part(material, &|part| part.emission.is_some())
+    }
+
+    /// True if the material or one of those it blends, at any depth, is as `wanted`.
+    fn any_part(&self, material: MaterialId, wanted: &dyn Fn(&Material) -> bool) -> bool {
+        let mut seen = vec![false; self.materials.len()];
+        let mut to_visit = vec![material];
+        while let Some(id) = to_visit.pop() {
+            let part = &self.materials[id];
+            if wanted(part) {
+                return true;
+            }
+            if let MaterialKind::Blend { materials, .. } = &part.kind
+                && !std::mem::replace(&mut seen[id], true)
+            {
+                to_visit.extend_from_slice(materials);
+            }
+        }
+        false
+    }
+}
