@@ -177,6 +177,7 @@ fn panel(emitting: usize) -> Scene {
         normal_map: None,
         emission,
         two_sided: true,
+        interior: None,
     };
     let first = scene.materials.len();
     scene.materials.push(material("dark", None));

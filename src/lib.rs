@@ -142,8 +142,8 @@ pub use {
     render::verify::verify,
     renderer::{DeviceChoice, Observer, RenderReport, Silent},
     scene::{
-        BlendMode, Emitters, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice,
-        LightSampling, MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind, Scene,
+        BlendMode, DistanceSampling, Emitters, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling,
+        LightChoice, LightSampling, MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind, Scene,
     },
     verify::Verdict,
 };

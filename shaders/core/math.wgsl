@@ -47,6 +47,25 @@ fn atan2_turns(y: f32, x: f32) -> f32 {
     return select(turns, -turns, y < 0.0);
 }
 
+// The natural logarithm of a normal number above 0: the same accuracy (1e-7) on every driver.
+fn natural_log(x: f32) -> f32 {
+    let bits = bitcast<u32>(x);
+    // A power of 2, and a factor from sqrt(1/2) to sqrt(2).
+    let exponent = i32((bits - 0x3f3504f3u) & 0xff800000u) >> 23u;
+    let factor = bitcast<f32>(bits - (u32(exponent) << 23u));
+    let s = (factor - 1.0) / (factor + 1.0);
+    let s2 = s * s;
+    let log_of_factor = 2.0 * s * (1.0 + s2 * (0.33333333 + s2 * (0.2 + s2 * (0.14285714 + s2 * 0.11111111))));
+    return f32(exponent) * 0.69314718 + log_of_factor;
+}
+
+// The cube root of a number above 0.
+fn cube_root(x: f32) -> f32 {
+    let near = exp(natural_log(x) / 3.0);
+    // A step of Newton's method.
+    return near - (near - x / (near * near)) / 3.0;
+}
+
 struct Frame {
     tangent: vec3<f32>,
     bitangent: vec3<f32>,

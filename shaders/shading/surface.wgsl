@@ -72,6 +72,23 @@ fn hit_material(hit: Hit) -> u32 {
     return primitive_material(primitive_word(hit.primitive, 0u).w);
 }
 
+// A place within a medium, at which a ray arrives: as a surface it faces wo, and nothing keeps rays from leaving it.
+fn medium_surface(ray: Ray, distance: f32) -> Surface {
+    var surface: Surface;
+    surface.position = ray.origin + distance * ray.direction;
+    surface.facing_normal = -ray.direction;
+    surface.shading_normal = -ray.direction;
+    surface.front = true;
+    surface.material = NONE;
+    surface.light = NONE;
+    return surface;
+}
+
+// True of such a place.
+fn is_within_medium(surface: Surface) -> bool {
+    return HAS_SCATTERING && surface.material == NONE;
+}
+
 fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     let wo = -ray.direction;
     var words = primitive_words(hit.primitive);

@@ -3,6 +3,7 @@
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import geometry/closest.wgsl
+#import shading/medium/boundaries.wgsl
 #import stages/wavefront.wgsl
 
 // Reads the queue of paths with shadow rays and its count. Adds to the radiance of the paths that see their light: one invocation traces all
@@ -14,6 +15,17 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     let count = atomicLoad(&counts[2u + vertex_parameters.queue]);
     let stride = workgroups.x * WORKGROUP;
     var next = id.x;
+#if OPEN_BOUNDARIES
+    for (; next < count; next += stride) {
+        let rays = shadow_ray_count(next);
+        for (var number = 0u; number < rays; number++) {
+            let share = light_across_boundaries(next, number);
+            if max_component(share) > 0.0 {
+                add_light(next, number, share);
+            }
+        }
+    }
+#else
 #if BVH
     var stack: array<StackEntry, STACK_SIZE>;
     var traversal = no_traversal();
@@ -64,7 +76,25 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
         }
     }
 #endif
+#endif
 }
+
+#if OPEN_BOUNDARIES
+// The share of light that comes along a shadow ray through surfaces that bound media.
+fn light_across_boundaries(index: u32, number: u32) -> Spectrum {
+    let s0 = shadow_rays[SHADOW_ORIGIN + shadow_ray_index(index, number)];
+    let s1 = shadow_rays[SHADOW_DIRECTION + shadow_ray_index(index, number)];
+    let media = bitcast<vec2<u32>>(shadow_rays[SHADOW_MEDIA + shadow_ray_index(index, number)].xy);
+    if HAS_MOTION {
+        set_path_time_of(bitcast<u32>(s1.w));
+    }
+    var crossing = begin_crossing(Ray(s0.xyz, s1.xyz), s0.w, media, true);
+    while crossing.goes_on {
+        crossing = cross_surface(crossing, closest_hit(crossing.ray, crossing.remaining));
+    }
+    return crossing.share;
+}
+#endif
 
 // Number of shadow rays of the path with this index in the queue.
 fn shadow_ray_count(index: u32) -> u32 {

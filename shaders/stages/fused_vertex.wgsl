@@ -2,6 +2,7 @@
 // the same vertex.
 #import core/math.wgsl
 #import geometry/closest.wgsl
+#import shading/medium/boundaries.wgsl
 #import shading/path/path.wgsl
 #import shading/path/trace.wgsl
 #if PACKETS
@@ -18,21 +19,44 @@ fn any_path(condition: bool) -> bool {
     }
 }
 
-// Closest hits of the rays of all lanes that have one.
-fn nearest(ray: Ray, has_ray: bool) -> Hit {
+// Closest hits, before a distance, of the rays of all lanes that have one.
+fn nearest_before(ray: Ray, limit: f32, has_ray: bool) -> Hit {
 #if PACKETS
-    return closest_hit_together(ray, select(-1.0, INFINITY_DISTANCE, has_ray));
+    return closest_hit_together(ray, select(-1.0, limit, has_ray));
 #else
     var hit: Hit;
     if has_ray {
-        hit = closest_hit(ray, INFINITY_DISTANCE);
+        hit = closest_hit(ray, limit);
     }
     return hit;
 #endif
 }
 
+// Closest hits of the rays of all lanes that have one.
+fn nearest(ray: Ray, has_ray: bool) -> Hit {
+    return nearest_before(ray, INFINITY_DISTANCE, has_ray);
+}
+
+// The share of light that comes along the shadow ray through surfaces that bound media.
+fn light_across_boundaries(shadow: ShadowRay, has_ray: bool) -> Spectrum {
+    var crossing = begin_crossing(shadow.ray, shadow.distance, shadow.media, has_ray);
+    loop {
+        let hit = nearest_before(crossing.ray, crossing.remaining, crossing.goes_on);
+        if crossing.goes_on {
+            crossing = cross_surface(crossing, hit);
+        }
+        continuing {
+            break if !any_path(crossing.goes_on);
+        }
+    }
+    return select(BLACK, crossing.share, has_ray);
+}
+
 // The share of light that comes along the shadow ray, for the lanes that have one; 0 for the others.
 fn light_share(shadow: ShadowRay, has_ray: bool) -> Spectrum {
+    if HAS_OPEN_BOUNDARIES {
+        return light_across_boundaries(shadow, has_ray);
+    }
 #if PACKETS
     return select(BLACK, shadow_transmittance_together(shadow.ray, select(-1.0, shadow.distance, has_ray)), has_ray);
 #else
@@ -50,7 +74,7 @@ fn trace_shadow_ray(shadow: ShadowRay, radiance: ptr<function, Spectrum>, rays: 
     *rays += select(0u, 1u, has_ray);
     let share = light_share(shadow, has_ray);
     if max_component(share) > 0.0 {
-        trace_light_seen(max_component(share));
+        trace_light_seen(share);
         *radiance += share * shadow.radiance;
     }
 }

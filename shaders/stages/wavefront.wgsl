@@ -7,8 +7,8 @@
 
 // Planes of PATH_CAPACITY vec4 each, by the table in src/plan/path_state.rs, which says what they hold.
 @group(0) @binding(BINDING_PATH_STATE) var<storage, read_write> path_state: array<vec4<f32>>;
-// The queue of paths with shadow rays: for each of LIGHT_SAMPLES rays, three planes of PATH_CAPACITY vec4: origin and distance; direction and
-// path slot; radiance and, where paths have several and of the first, how many the path has.
+// The queue of paths with shadow rays: for each of LIGHT_SAMPLES rays, planes of PATH_CAPACITY vec4: origin and distance; direction and
+// path slot; radiance and, where paths have several and of the first, how many the path has; with OPEN_BOUNDARIES, the media around the origin.
 @group(0) @binding(BINDING_SHADOW_RAYS) var<storage, read_write> shadow_rays: array<vec4<f32>>;
 // Two queues of PATH_CAPACITY path slots: one is read while the other is filled.
 @group(0) @binding(BINDING_QUEUES) var<storage, read_write> queues: array<u32>;
@@ -18,9 +18,10 @@
 const SHADOW_ORIGIN: u32 = 0u;
 const SHADOW_DIRECTION: u32 = PATH_CAPACITY;
 const SHADOW_RADIANCE: u32 = 2u * PATH_CAPACITY;
+const SHADOW_MEDIA: u32 = 3u * PATH_CAPACITY;
 const SHADOW_PLANES: u32 = SHADOW_RAY_WORDS * PATH_CAPACITY;
 
-const_assert SHADOW_RADIANCE + PATH_CAPACITY == SHADOW_PLANES;
+const_assert SHADOW_RADIANCE + PATH_CAPACITY <= SHADOW_PLANES;
 
 fn load_ray(slot: u32) -> Ray {
     return Ray(path_state[PLANE_ORIGIN + slot].xyz, path_state[PLANE_DIRECTION + slot].xyz);

@@ -94,6 +94,7 @@ pub fn panel(emitting: u32) -> Result<Scene, SceneError> {
         normal_map: None,
         emission,
         two_sided: true,
+        interior: None,
     };
     scene.materials.push(material("dark", None));
     scene.materials.push(material("bright", Some(Emission { radiance: ColorInput::grey(radiance), two_sided: false })));

@@ -13,7 +13,14 @@ fn lamp(image: ImageTexture, rotation_degrees: f64) -> Scene {
     let mut texture = Texture::new("picture", TextureKind::Image(image));
     texture.transform.rotation_degrees = rotation_degrees;
     let emission = Some(Emission { radiance: ColorInput::ScaledTexture(0, Spectrum::grey(2.0)), two_sided: false });
-    let material = Material { name: "lamp".into(), kind: MaterialKind::Emissive, normal_map: None, emission, two_sided: true };
+    let material = Material {
+        name: "lamp".into(),
+        kind: MaterialKind::Emissive,
+        normal_map: None,
+        emission,
+        two_sided: true,
+        interior: None,
+    };
     let mut scene = Scene { textures: vec![texture], materials: vec![material], ..Scene::default() };
     let quad = crate::scene::Rectangle { corner: DVec3::ZERO, edge_u: DVec3::X, edge_v: DVec3::Y };
     scene.shapes.push(crate::scene::Shape {
@@ -155,6 +162,7 @@ fn no_point_of_a_function_has_density_0() {
         normal_map: None,
         emission: None,
         two_sided: true,
+        interior: None,
     };
     let blend = |size: u32| {
         let mut scene = lamp(

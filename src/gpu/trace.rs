@@ -6,8 +6,8 @@ use super::pipeline::Pipeline;
 use crate::packed::NONE;
 use crate::plan::bindings::Binding;
 use crate::plan::trace_record::{
-    TRACE_BYTES, TRACE_WORDS, TRACED_FOUND, TRACED_LIGHT, TRACED_LIGHT_SEEN, TRACED_NULL, TRACED_ROULETTE, TRACED_SAMPLE,
-    TRACED_VERTEX,
+    TRACE_BYTES, TRACE_WORDS, TRACED_FOUND, TRACED_LIGHT, TRACED_LIGHT_SEEN, TRACED_MEDIUM, TRACED_NULL, TRACED_ROULETTE,
+    TRACED_SAMPLE, TRACED_VERTEX,
 };
 use crate::renderer::{RenderError, Silent, Stopping};
 use crate::sampling::Sampling;
@@ -49,11 +49,21 @@ pub struct TracedSample {
     pub passes: bool,
 }
 
+/// The place of a vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TracedPlace {
+    /// Position, shading normal on wo's side, and which of the scene's materials.
+    Surface([f32; 3], [f32; 3], MaterialId),
+    /// The position.
+    Medium([f32; 3]),
+    /// The ray left the scene.
+    Outside,
+}
+
 /// One vertex of a path, or its end outside the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracedVertex {
-    /// Position, shading normal on wo's side, and which of the scene's materials; None: the ray left the scene.
-    pub surface: Option<([f32; 3], [f32; 3], MaterialId)>,
+    pub place: TracedPlace,
     /// Direction of the ray that led here.
     pub direction: [f32; 3],
     pub throughput: [f32; 3],
@@ -103,8 +113,13 @@ fn read_vertex(words: &[[f32; 4]], scene_materials: &[MaterialId]) -> Option<Tra
     let notes = w(3).to_bits();
     let has = |note: u32| notes & note != 0;
     let material = scene_materials.get(w(1).to_bits() as usize);
+    let place = match material {
+        _ if has(TRACED_MEDIUM) => TracedPlace::Medium(xyz(0)),
+        Some(&material) if w(0).to_bits() != NONE => TracedPlace::Surface(xyz(0), xyz(1), material),
+        _ => TracedPlace::Outside,
+    };
     has(TRACED_VERTEX).then(|| TracedVertex {
-        surface: if w(0).to_bits() == NONE { None } else { material.map(|&material| (xyz(0), xyz(1), material)) },
+        place,
         direction: xyz(2),
         throughput: xyz(3),
         found: has(TRACED_FOUND).then(|| TracedFind { contribution: xyz(4), weight: w(4) }),

@@ -232,7 +232,17 @@ impl PathVisitor for Trainee {
         self.throughput = throughput;
     }
 
+    /// Guides are for surfaces: no direction is above a place within a medium.
+    fn medium(&mut self, _depth: u32, position: DVec3, _wo: DVec3, throughput: Spectrum) {
+        (self.position, self.normal, self.throughput) = (position, DVec3::ZERO, throughput);
+        self.radiance_before = self.radiance;
+    }
+
     fn emission(&mut self, _radiance: Spectrum, _weight: f64, contribution: Spectrum) {
+        self.found(contribution);
+    }
+
+    fn given_off(&mut self, contribution: Spectrum) {
         self.found(contribution);
     }
 

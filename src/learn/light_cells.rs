@@ -393,6 +393,10 @@ impl PathVisitor for Walker {
         self.at = Some(Shaded { at: LitPoint::new(surface.point.leave_towards(wo), normal), normal });
     }
 
+    fn medium(&mut self, _depth: u32, position: DVec3, wo: DVec3, _throughput: Spectrum) {
+        self.at = Some(Shaded { at: LitPoint::new(position, wo), normal: DVec3::ZERO });
+    }
+
     fn scattered(&mut self, sample: &BsdfSample) {
         if let (Density::SolidAngle(_), false, Some(mut at)) = (sample.density, sample.is_null, self.at) {
             // A surface that the path goes through is lit from behind.

@@ -11,6 +11,8 @@ pub enum PackError {
     TooManyTexels { words: usize },
     #[error("the blend `{material}` and those before it have more than {limit} weights along their branches")]
     TooManyWeights { material: String, limit: usize },
+    #[error("the phase functions of all media have too many parts: at most 4095 of one medium, and a million in all")]
+    TooManyPhases,
     #[error("the scene has {found} media; {limit} are possible")]
     TooManyMedia { found: usize, limit: usize },
     #[error("{shape}: {message}")]

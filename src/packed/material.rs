@@ -8,6 +8,7 @@ use super::blend_parts::{MOST_WEIGHTS, Part, Parts, lambert_of_the_mean, parts};
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::constants::NONE;
 use super::error::PackError;
+use super::medium::PackedMedia;
 use super::texture::mention;
 use crate::scene::material::{self, AlbedoTable};
 use crate::scene::{
@@ -57,6 +58,8 @@ shared_constants!(flags {
     pub(super) const LETS_THROUGH: u32 = 8;
     /// The back scatters nothing.
     pub(super) const FRONT_ONLY: u32 = 16;
+    /// Some rays go straight on through the surface, into its medium or out of it.
+    pub(super) const OPEN_BOUNDARY: u32 = 32;
     /// Above these flags stands the number of the medium that surfaces of the material enclose; 0: they bound none.
     pub(super) const MEDIUM_SHIFT: u32 = 16;
     /// Flag beside the number of a part's factors: its back scatters nothing.
@@ -123,9 +126,6 @@ pub struct PackedBlendPart {
     pub constant_factor: f32,
 }
 
-/// Media have numbers of 16 bits, from 1.
-const MOST_MEDIA: usize = u16::MAX as usize;
-
 /// Entries that a table of albedos takes.
 const ALBEDO_ENTRIES: usize = (material::ALBEDO_ROWS * material::ALBEDO_COLUMNS).div_ceil(3);
 
@@ -159,8 +159,8 @@ pub struct PackedMaterials {
     pub further: Vec<PackedParameter>,
     /// Indices of the albedo tables among the further parameters.
     pub albedos: AlbedoPlaces,
-    /// The extinction of each medium, and 0; that of number 1 is the first.
-    pub media: Vec<[f32; 4]>,
+    /// The media that surfaces enclose, and the one around the camera.
+    pub media: PackedMedia,
     pub parts: Vec<PackedBlendPart>,
     pub weights: Vec<PackedBlendWeight>,
 }
@@ -208,27 +208,15 @@ impl PackedMaterials {
     pub fn new(scene: &Scene, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
         let mut packed = Self::default();
         let media = Media::of(scene);
-        if media.extinctions.len() > MOST_MEDIA {
-            return Err(PackError::TooManyMedia { found: media.extinctions.len(), limit: MOST_MEDIA });
-        }
-        let absorbs = |id: &MaterialId| media.extinction(media.behind(*id)) != Spectrum::BLACK;
-        let has_media = of_surfaces.iter().any(absorbs);
-        if has_media {
-            packed.media = media
-                .extinctions
-                .iter()
-                .map(|extinction| {
-                    let [r, g, b] = extinction.to_f32();
-                    [r, g, b, 0.0]
-                })
-                .collect();
-        }
+        packed.media = PackedMedia::new(&media, of_surfaces, scene)?;
+        let has_media = !packed.media.is_empty();
         for &id in of_surfaces {
             let mut material = match scene.materials[id].kind {
                 MaterialKind::Blend { .. } => packed.blend(scene, id)?,
                 _ => packed.plain(&scene.materials[id]),
             };
             material.emission_flags |= if has_media { (media.behind(id) as u32) << MEDIUM_SHIFT } else { 0 };
+            material.emission_flags |= if has_media && media.is_open(id) { OPEN_BOUNDARY } else { 0 };
             packed.materials.push(material);
             packed.scene_ids.push(id);
         }
@@ -289,6 +277,11 @@ impl PackedMaterials {
             self.further.extend(table_entries(&lobe.table));
         }
         packed
+    }
+
+    /// Some null surface bounds a medium.
+    pub fn has_open_boundaries(&self) -> bool {
+        self.materials.iter().any(|material| material.emission_flags & OPEN_BOUNDARY != 0)
     }
 
     /// Index of each of the scene's materials; [`NONE`] where it is left out.

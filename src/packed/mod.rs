@@ -17,6 +17,7 @@ pub mod instance;
 pub mod light;
 pub mod light_cells;
 pub mod material;
+pub mod medium;
 pub mod motion;
 pub mod primitive;
 pub mod ray_query;

@@ -14,6 +14,7 @@ pub struct Tables {
     pub first_motion: u32,
     pub first_further: u32,
     pub first_medium: u32,
+    pub first_phase: u32,
     pub first_light_node: u32,
 }
 
@@ -27,7 +28,8 @@ impl Tables {
         tables.first_texture = tables.append(&packed.textures.textures);
         tables.first_motion = tables.append(&packed.motions);
         tables.first_further = tables.append(&packed.materials.further);
-        tables.first_medium = tables.append(&packed.materials.media);
+        tables.first_medium = tables.append(&packed.materials.media.media);
+        tables.first_phase = tables.append(&packed.materials.media.phases);
         tables.first_light_node = tables.append(&packed.light_nodes);
         tables
     }

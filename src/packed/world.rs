@@ -13,7 +13,7 @@ use super::primitive::WorldPrimitive;
 use super::shape::{self, Placement};
 use crate::binary_tree::parts::Pose;
 use crate::scene::animation::unevenness;
-use crate::scene::{Geometry, Instances, MaterialId, MaterialKind, Scene, Shape, Transform, TransformStep};
+use crate::scene::{Geometry, Instances, MaterialId, Scene, Shape, Transform, TransformStep};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -76,7 +76,7 @@ fn in_pose(scene: &Scene, shape: usize, pose: DMat3) -> Pose {
     let textured = vec![false; scene.materials.len()];
     let mut boxes = Vec::new();
     shape::add(&Placement::new(&shape, &textured), &mut |geometry, _, face| {
-        if !matches!(scene.materials[shape.face_material(face)].kind, MaterialKind::Pass) {
+        if !scene.materials[shape.face_material(face)].is_nothing() {
             boxes.extend(geometry.bounds().map(|(low, high)| Aabb::new(low.into(), high.into())));
         }
     });
@@ -152,7 +152,7 @@ impl WorldGeometry {
             let second = self.second_corners(shape);
             shape::add(&Placement::new(shape, textured), &mut |geometry, attributes, face| {
                 let material = shape.face_material(face);
-                if matches!(scene.materials[material].kind, MaterialKind::Pass) {
+                if scene.materials[material].is_nothing() {
                     return;
                 }
                 let mut primitive = WorldPrimitive { shape: index, ..WorldPrimitive::new(geometry, material) };
@@ -172,7 +172,7 @@ impl WorldGeometry {
         attributes: Option<TriangleAttributes>,
         second: Option<&[Vec2; 3]>,
     ) {
-        if matches!(scene.materials[primitive.material].kind, MaterialKind::Pass) {
+        if scene.materials[primitive.material].is_nothing() {
             if scene.shapes[primitive.shape].portal && !primitive.is_infinite() && primitive.area() > 0.0 {
                 self.portals.push(primitive);
             }

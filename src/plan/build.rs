@@ -42,7 +42,8 @@ impl Plan {
         let light_samples = if switches::samples_lights(scene, packed) { scene.render.several_light_samples()[0] } else { 1 };
         let of_scene = switches::of_scene(scene, packed);
         let state_bytes = path_state::path_state_bytes(|switch| of_scene.enabled.contains(switch));
-        let path_capacity = limits.paths_with_shadow_rays(state_bytes, u64::from(light_samples) * memory::SHADOW_RAY_BYTES);
+        let shadow_ray_words = path_state::shadow_ray_words(|switch| of_scene.enabled.contains(switch));
+        let path_capacity = limits.paths_with_shadow_rays(state_bytes, u64::from(light_samples * shadow_ray_words) * 16);
         let needs = decisions::Needs { features: of_scene.enabled.len(), light_samples, path_capacity };
         let (stages, why_stages) = decisions::stages(geometry, needs, &scene.render, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
@@ -116,6 +117,8 @@ impl Plan {
         if let Some(fault) = options.fault {
             fault.plant(packed, &mut plan.switches);
         }
+        let shadow_ray_words = path_state::shadow_ray_words(|switch| plan.switches.enabled.contains(switch));
+        plan.switches.constants.insert("SHADOW_RAY_WORDS", shadow_ray_words);
         let planes = path_state::plane_constants(|switch| plan.switches.enabled.contains(switch), path_capacity);
         plan.switches.constants.extend(planes);
         let first_constant = match geometry {

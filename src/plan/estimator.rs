@@ -4,14 +4,16 @@ use crate::math;
 use crate::sampling::light_tree::cluster;
 use crate::sampling::{roulette, sampler};
 use crate::scene::material::principled;
-use crate::scene::medium;
+use crate::scene::media;
 use crate::shader::shared::shared_constants;
 
 shared_constants!(constants {
     const POINT_ERROR: f32 = math::POINT_ERROR as f32;
     const DIRECTION_ERROR: f32 = math::DIRECTION_ERROR as f32;
     const SHADOW_SHORTENING: f32 = math::SHADOW_SHORTENING as f32;
-    const FARTHEST: f32 = medium::FARTHEST as f32;
+    const FARTHEST: f32 = media::FARTHEST as f32;
+    /// Surfaces that a shadow ray goes through at most where they bound media.
+    const MOST_CROSSINGS: u32 = media::MOST_CROSSINGS;
     const LARGEST_NUMBER: f32 = sampler::LARGEST_NUMBER as f32;
     const CERTAIN_ROULETTE_DEPTH: u32 = roulette::CERTAIN_ROULETTE_DEPTH;
     const LARGEST_SURVIVAL: f32 = roulette::LARGEST_SURVIVAL as f32;

@@ -5,7 +5,8 @@ use super::bindings::Binding;
 use super::parameters::{PassParameters, VertexParameters};
 use super::{counters, estimator, path_state, trace_record};
 use crate::packed::{
-    NONE, View, blend_weight, bvh4, guide, instance, light, light_cells, material, motion, primitive, shape, texture, view,
+    NONE, View, blend_weight, bvh4, guide, instance, light, light_cells, material, medium, motion, primitive, shape, texture,
+    view,
 };
 use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
 
@@ -29,6 +30,7 @@ pub fn constants() -> Constants {
         motion::constants(),
         view::constants(),
         material::constants(),
+        medium::constants(),
         blend_weight::constants(),
         light::constants(),
         light_cells::constants(),

@@ -5,12 +5,10 @@ use std::fmt;
 pub use super::choices::FILM_BYTES;
 use super::error::PlanError;
 use super::limits::DeviceLimits;
-use super::path_state::{QUEUES, SHADOW_RAY_WORDS};
+use super::path_state::QUEUES;
 use crate::packed::attributes::TriangleAttributes;
 use crate::packed::primitive::Primitive;
 
-/// Bytes per shadow ray; a path has as many at a time as a surface takes light samples.
-pub const SHADOW_RAY_BYTES: u64 = 16 * SHADOW_RAY_WORDS as u64;
 /// Bytes of a path's places in the queues.
 pub const QUEUE_BYTES: u64 = 4 * QUEUES as u64;
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::choices::{FilmStorage, GeometryPlacement, StageMode};
 use super::chunks::Chunks;
-use super::memory::{Memory, SHADOW_RAY_BYTES};
+use super::memory::Memory;
 use super::path_state;
 use crate::packed::hierarchy::Traversal;
 use crate::renderer::Decision;
@@ -65,7 +65,8 @@ impl Plan {
 
     /// Bytes of the shadow rays that a path in flight has at a time.
     pub fn shadow_ray_bytes(&self) -> u64 {
-        u64::from(self.light_samples) * SHADOW_RAY_BYTES
+        let words = path_state::shadow_ray_words(|switch| self.switches.enabled.contains(switch));
+        u64::from(self.light_samples * words) * 16
     }
 
     /// Bytes of the state of a path in flight.

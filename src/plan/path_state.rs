@@ -7,8 +7,6 @@ shared_constants!(constants {
     pub const WORKGROUP: u32 = 64;
     /// Flag beside the primitive of a hit in an instance, which has the instance's number in place of the distance; primitives have 24 bits.
     pub const HIT_IN_INSTANCE: u32 = 1 << 31;
-    /// vec4s of a shadow ray.
-    pub const SHADOW_RAY_WORDS: u32 = 3;
     /// Queues of paths: one is read while the other is filled.
     pub const QUEUES: u32 = 2;
     /// Counts: paths in queue 0 and 1; paths with shadow rays of vertices that read queue 0 and 1; where paths have several, all shadow
@@ -57,6 +55,12 @@ pub const MOST_PATH_STATE_BYTES: u64 = 16 * PLANES.len() as u64;
 /// Bytes of the state of a path in flight, in kernels with the switches that `has` tells.
 pub fn path_state_bytes(has: impl Fn(&str) -> bool) -> u64 {
     16 * planes(has).filter(|(_, is_there)| *is_there).count() as u64
+}
+
+/// vec4s of a shadow ray, in kernels with the switches that `has` tells: where it begins, where it leads, what it carries, and where it crosses
+/// boundaries of media, those around its origin.
+pub fn shadow_ray_words(has: impl Fn(&str) -> bool) -> u32 {
+    if has("OPEN_BOUNDARIES") { 4 } else { 3 }
 }
 
 /// The first elements of all planes of `capacity` paths. A plane that kernels do not have begins where the next one does.

@@ -11,7 +11,7 @@ use crate::packed::texture::{PackedTextureKind, TexelFormat};
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
 use crate::scene::material::{self, ANISOTROPIC, SEPARABLE_MASKING};
-use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, MapRows, Projection};
+use crate::scene::{ApertureShape, DistanceSampling, Filter, FilterKind, HemisphereSampling, MapRows, Projection};
 use crate::scene::{
     BlendMode, Emitters, Estimator, LightSampling, LobeKind, LobeSupport, MisHeuristic, PixelSampler, RenderSettings, Scene,
 };
@@ -66,6 +66,9 @@ pub fn of_scene(scene: &Scene, packed: &PackedScene) -> Switches {
     let hides = render.emitters == Emitters::Hidden;
     switches.enable("HIDDEN_EMITTERS", hides);
     switches.enable("NULL_SURFACES", hides || switches.enabled.contains("NULL_SURFACES"));
+    let scatter = packed.materials.media.scatter();
+    switches.enable("BY_DISTANCE", scatter && render.distance_sampling == DistanceSampling::Distance);
+    switches.enable("BY_ANGLE", scatter && render.distance_sampling == DistanceSampling::Equiangular);
     switches.enable("UNIFORM_HEMISPHERE", render.hemisphere == HemisphereSampling::Uniform);
     let blades = enable_camera(&mut switches, scene);
     switches.constants.insert("BLADES", blades);
@@ -111,7 +114,9 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("FIRST_PART_WORD", tables.first_part),
         ("FIRST_LIGHT_NODE_WORD", tables.first_light_node),
         ("FIRST_LIGHT_WORD", tables.first_light),
+        ("CAMERA_MEDIUM", packed.materials.media.around_camera),
         ("FIRST_MEDIUM_WORD", tables.first_medium),
+        ("FIRST_PHASE_WORD", tables.first_phase),
         ("FIRST_MOTION_WORD", tables.first_motion),
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
@@ -293,7 +298,12 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     let has_form = |form: u32| materials.iter().any(|material| material.has_form(form));
     switches.enable("COMPENSATION", has_form(material::COMPENSATED));
     switches.enable("SHEEN", has_form(material::SHEEN));
-    switches.enable("MEDIA", !packed.materials.media.is_empty());
+    let media = &packed.materials.media;
+    switches.enable("MEDIA", !media.is_empty());
+    switches.enable("MEDIUM_EMISSION", media.emit());
+    switches.enable("SCATTERING", media.scatter());
+    let open_boundaries = packed.materials.has_open_boundaries();
+    switches.enable("OPEN_BOUNDARIES", open_boundaries && !media.is_empty());
     switches.enable("ANISOTROPY", has_form(ANISOTROPIC));
     switches.enable("ANISOTROPY_DIRECTIONS", has_form(material::DIRECTED));
     let coat_normals_differ = scene.coat_normals_differ();

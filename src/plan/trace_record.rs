@@ -15,6 +15,7 @@ shared_constants!(constants {
     pub const TRACED_NULL: u32 = 16;
     pub const TRACED_ROULETTE: u32 = 32;
     pub const TRACED_FOUND: u32 = 64;
+    pub const TRACED_MEDIUM: u32 = 128;
 });
 
 /// Bytes of the record of a path.

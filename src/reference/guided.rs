@@ -29,6 +29,11 @@ impl<'a> GuidedBsdf<'a> {
         Self { bsdf, guide: cell.map(|cell| (cell, share)) }
     }
 
+    /// Directions of light samples can be scattered.
+    pub fn has_non_delta_lobe(&self) -> bool {
+        self.bsdf.has_non_delta_lobe()
+    }
+
     /// The surface as the path sees it.
     pub fn view(&self) -> &'a View {
         &self.bsdf.view

@@ -1,7 +1,8 @@
 //! The path tracing estimator (Kajiya 1986; Veach 1997).
 //!
 //! Radiance that arrives along a ray leaves the surface it came from: L = Le + ∫ f(wo, wi) L(wi) |cosθi| dwi.
-//! The integral is estimated at every surface by at most two samples: one direction towards a light (next
+//! Within a medium, the phase function takes the place of f |cosθi|, and the place where light is scattered is drawn.
+//! The integral is estimated at every such place by at most two samples: one direction towards a light (next
 //! event estimation), which finds emission only, and one direction drawn from the BSDF, along which the path
 //! goes on. The product of all weights f·|cosθ| / density so far is the path's throughput. Emission that both
 //! samples can find is shared out by multiple importance sampling, see [`super::mis`].
@@ -15,15 +16,19 @@ use glam::DVec3;
 use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::{emitted, null_weight};
+use super::free_flight::fly;
 use super::guided::GuidedBsdf;
-use super::intersect::{Hit, PathTime, Ray, Surface, World};
+use super::intersect::{Hit, PathTime, Ray, Surface, SurfaceId, World};
 use super::lights::{LightSample, Lights};
-use super::medium::{MediumStack, transmittance};
+use super::medium::{MediumStack, given_off, left};
 use super::mis;
+use super::phase::Scattering;
 use super::roulette::{self, Expectation};
+use super::scatterer::{Interaction, Scatterer};
 use super::trace::{LightConnection, PathVisitor};
-use crate::sampling::{CameraDimension, Dimension, Guide, LitPoint, PathSampler, VertexDimension};
-use crate::scene::{Emitters, Estimator, MaterialId, Media, Scene};
+use crate::sampling::{CameraDimension, Dimension, Guide, LitPoint, MediumDimension, PathSampler, VertexDimension};
+use crate::scene::media::MOST_CROSSINGS;
+use crate::scene::{Emitters, Estimator, Filling, MaterialId, Media, Scene};
 use crate::spectrum::Spectrum;
 
 /// A scene made ready for tracing paths.
@@ -99,7 +104,7 @@ impl Integrator {
             eta_scale: 1.0,
             expectation: Expectation::default(),
             previous: Density::Delta,
-            stack: MediumStack::default(),
+            stack: MediumStack::around(self.media.around_camera),
             depth: 1,
             vertex: 0,
         }
@@ -117,18 +122,26 @@ impl Integrator {
     /// Extends a path whose ray met `hit`: adds the light found there, and chooses the next ray. False where
     /// the path ends.
     fn shade_vertex<V: PathVisitor>(&self, path: &mut Path, hit: Option<Hit>, sampler: &PathSampler, visitor: &mut V) -> bool {
+        // Look up the surface that the ray met
+        let surface = hit.map(|hit| {
+            let mut surface = self.world.surface(&path.ray, &hit, &path.time);
+            surface.by_camera = path.depth == 1;
+            visitor.round_surface(&mut surface);
+            surface
+        });
+        let length = surface.as_ref().map_or(f64::INFINITY, |surface| surface.point.position.distance(path.ray.origin));
+
+        // Go through the medium on the way, which may scatter the path before it comes to the end of its ray
+        if let Some(position) = self.fly_through_medium(path, length, sampler, visitor) {
+            return self.scatter_in_medium(path, position, sampler, visitor);
+        }
+
         // Add light from outside where the ray left the scene
-        let Some(hit) = hit else {
+        let Some(surface) = surface else {
             self.add_escaped_radiance(path, visitor);
             return false;
         };
-
-        // Look up the surface that the ray met
-        let mut surface = self.world.surface(&path.ray, &hit, &path.time);
-        surface.by_camera = path.depth == 1;
-        visitor.round_surface(&mut surface);
         let wo = -path.ray.direction;
-        path.throughput *= transmittance(&self.media, path.stack.innermost(), surface.point.position.distance(path.ray.origin));
         visitor.surface(path.depth, &surface, wo, path.throughput);
 
         // Let the camera look through emitters that it is not to see
@@ -140,10 +153,11 @@ impl Integrator {
         // Add the emission of the surface
         self.add_emitted_radiance(path, &surface, wo, visitor);
 
-        // End the path at its greatest depth: only blends, which may hold null surfaces, let its last edge go
-        // on
+        // End the path at its greatest depth: only blends, which may hold null surfaces, and null surfaces that
+        // bound media let its last edge go on
         let last_edge = path.depth == self.scene.render.max_depth;
-        if last_edge && !self.scene.materials[surface.owner.material].is_blend() {
+        let material = surface.owner.material;
+        if last_edge && !self.scene.materials[material].is_blend() && !self.media.is_open(material) {
             return false;
         }
 
@@ -152,29 +166,105 @@ impl Integrator {
         let random = |dimension| sampler.uniform(Dimension::vertex(vertex, dimension));
         let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_number(random(VertexDimension::Blend)));
         visitor.view(&bsdf.view);
-        let guided = GuidedBsdf::new(self.guide(), &surface, &bsdf);
+        let scatterer = Scatterer::Surface(GuidedBsdf::new(self.guide(), &surface, &bsdf));
+        self.scatter(path, &Interaction::surface(&surface, &bsdf), &scatterer, sampler, visitor)
+    }
+
+    /// The medium around the path's ray takes of its throughput and adds what it gives off, up to the ray's end or to
+    /// the place, returned, where it scatters the path.
+    fn fly_through_medium<V: PathVisitor>(
+        &self,
+        path: &mut Path,
+        length: f64,
+        sampler: &PathSampler,
+        visitor: &mut V,
+    ) -> Option<DVec3> {
+        let filling = self.media.filling(path.stack.innermost())?;
+        if self.media.emit() {
+            let contribution = path.throughput * given_off(filling, length);
+            path.radiance += contribution;
+            visitor.given_off(contribution);
+        }
+        if !filling.scatters() {
+            path.throughput *= left(filling.extinction, length);
+            return None;
+        }
+        let random = |dimension| sampler.open(Dimension::medium(path.vertex, dimension));
+        let numbers =
+            [MediumDimension::Event, MediumDimension::Distance].map(|dimension| visitor.round_number(random(dimension)));
+        let pivot = if filling.is_lit { self.pivot(path, filling, length, sampler) } else { None };
+        let pivot = pivot.map(|mut pivot| {
+            let magnitude = pivot.abs().max(path.ray.origin.abs()).max_element();
+            visitor.round_point(&mut pivot, magnitude);
+            pivot
+        });
+        let flight = fly(filling, path.throughput, (&path.ray, length), pivot, self.scene.render.distance_sampling, numbers);
+        path.throughput *= flight.weight;
+        flight.scattered_at.map(|distance| path.ray.at(distance))
+    }
+
+    /// The place of a light about which the place of scattering is drawn: of the light that light sample 0 of the next
+    /// vertex chooses, but at the middle of the ray, or as far as light goes. None where it is at infinity.
+    fn pivot(&self, path: &Path, filling: &Filling, length: f64, sampler: &PathSampler) -> Option<DVec3> {
+        if self.scene.render.estimator == Estimator::Bsdf || self.lights.is_empty() {
+            return None;
+        }
+        let middle = path.ray.at((0.5 * length).min(3.0 / filling.extinction.sum()));
+        let [choice, u, v] = sampler.light_bits(path.vertex, path.depth, 0);
+        let from = LitPoint::new(middle, -path.ray.direction);
+        self.lights.place((&self.world, &path.time), from, choice, [u, v])
+    }
+
+    /// Extends a path that a medium scatters at `position`. False where the path ends.
+    fn scatter_in_medium<V: PathVisitor>(
+        &self,
+        path: &mut Path,
+        position: DVec3,
+        sampler: &PathSampler,
+        visitor: &mut V,
+    ) -> bool {
+        let wo = -path.ray.direction;
+        visitor.medium(path.depth, position, wo, path.throughput);
+        let filling = self.media.filling(path.stack.innermost());
+        let (Some(filling), true) = (filling, path.depth != self.scene.render.max_depth) else { return false };
+        let scatterer = Scatterer::Medium(Scattering { phase: &filling.phase, wo });
+        self.scatter(path, &Interaction::medium(position, wo), &scatterer, sampler, visitor)
+    }
+
+    /// Extends a path where it is scattered: samples lights, and chooses the next ray. False where the path ends.
+    fn scatter<V: PathVisitor>(
+        &self,
+        path: &mut Path,
+        interaction: &Interaction<'_>,
+        scatterer: &Scatterer<'_>,
+        sampler: &PathSampler,
+        visitor: &mut V,
+    ) -> bool {
+        let vertex = path.vertex;
+        let random = |dimension| sampler.uniform(Dimension::vertex(vertex, dimension));
+        let last_edge = path.depth == self.scene.render.max_depth;
         // Cells of lights are told apart by this normal.
-        let mut lit_normal = surface.point.normal_towards(wo);
+        let mut lit_normal = interaction.point().normal_towards(scatterer.wo());
         visitor.round_direction(&mut lit_normal);
 
         // Sample lights for direct lighting
-        if !last_edge && V::LIGHTS && self.samples_light(&bsdf) {
+        if !last_edge && V::LIGHTS && self.samples_light(scatterer) {
             for number in 0..self.scene.render.light_samples_at(path.depth) {
                 let bits = sampler.light_bits(vertex, path.depth, number);
-                self.add_direct_light(path, (&surface, lit_normal), &guided, bits, visitor);
+                self.add_direct_light(path, (interaction, lit_normal), scatterer, bits, visitor);
             }
         }
 
         // Sample the direction in which the path goes on
         let [u1, u2] = [VertexDimension::BsdfU, VertexDimension::BsdfV].map(|number| visitor.round_number(random(number)));
         let u_lobe = visitor.round_number(random(VertexDimension::Lobe));
-        let Some(mut drawn) = guided.sample(u_lobe, u1, u2) else { return false };
-        visitor.round_sample(&mut drawn, &guided);
+        let Some(mut drawn) = scatterer.sample(u_lobe, u1, u2) else { return false };
+        visitor.round_sample(&mut drawn, scatterer);
         if last_edge && !drawn.is_null {
             return false;
         }
         if V::COMPARES {
-            visitor.unguided(guided.unguided(drawn.wi, drawn.density));
+            visitor.unguided(scatterer.unguided(drawn.wi, drawn.density));
         }
         visitor.scattered(&drawn);
 
@@ -182,21 +272,23 @@ impl Integrator {
         let arriving = path.throughput;
         path.throughput *= drawn.weight;
         path.eta_scale *= drawn.eta * drawn.eta;
-        path.ray = Ray { origin: surface.point.leave_towards(drawn.wi), direction: drawn.wi };
-        visitor.round_ray(&mut path.ray, Some(&surface.point));
+        path.ray = Ray { origin: interaction.point().leave_towards(drawn.wi), direction: drawn.wi };
+        visitor.round_ray(&mut path.ray, Some(interaction.point()));
         path.vertex += 1;
+        if !drawn.is_null || interaction.is_open_boundary(&self.media) {
+            path.stack = interaction.media_towards(path.stack, &self.media, drawn.wi);
+        }
         // Null surfaces end no edge
         if drawn.is_null {
             return true;
         }
-        path.stack = path.stack.towards(&self.media, &surface, bsdf.view.front, drawn.wi);
         path.previous = drawn.density;
         path.lit_from = LitPoint::new(path.ray.origin, lit_normal);
 
         // Let Russian roulette end the path
         let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
         let survival = match self.guide {
-            Some(_) => path.expectation.survival(arriving, guided.sent_on(), path.depth),
+            Some(_) => path.expectation.survival(arriving, scatterer.sent_on(), path.depth),
             None => roulette::survival(path.throughput * path.eta_scale, path.depth),
         };
         let survives = self.survives_roulette(path, survival, u_roulette, visitor);
@@ -211,11 +303,13 @@ impl Integrator {
         path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
         visitor.round_ray(&mut path.ray, Some(&surface.point));
         path.vertex += 1;
+        if self.media.is_open(surface.owner.material) {
+            path.stack = path.stack.towards(&self.media, surface, surface.point.normal.dot(wi) < 0.0, wi);
+        }
     }
 
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_escaped_radiance<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
-        path.throughput *= transmittance(&self.media, path.stack.innermost(), f64::INFINITY);
         if path.depth == 1 && self.scene.render.emitters == Emitters::Hidden {
             return visitor.escaped(Spectrum::BLACK, 1.0, Spectrum::BLACK);
         }
@@ -254,9 +348,9 @@ impl Integrator {
         }
     }
 
-    /// Light is sampled at surfaces with this BSDF.
-    fn samples_light(&self, bsdf: &Bsdf) -> bool {
-        self.scene.render.estimator != Estimator::Bsdf && !self.lights.is_empty() && bsdf.has_non_delta_lobe()
+    /// Light is sampled where it is scattered so.
+    fn samples_light(&self, scatterer: &Scatterer<'_>) -> bool {
+        self.scene.render.estimator != Estimator::Bsdf && !self.lights.is_empty() && scatterer.has_non_delta_lobe()
     }
 
     /// Next event estimation: one light, one direction to it, f·|cosθ|·L / (probability · density), if
@@ -264,16 +358,16 @@ impl Integrator {
     fn add_direct_light<V: PathVisitor>(
         &self,
         path: &mut Path,
-        (surface, lit_normal): (&Surface, DVec3),
-        guided: &GuidedBsdf,
+        (interaction, lit_normal): (&Interaction<'_>, DVec3),
+        scatterer: &Scatterer<'_>,
         [choice, u, v]: [u32; 3],
         visitor: &mut V,
     ) {
         // Sample a light and a direction to it
         let settings = &self.scene.render;
-        let view = guided.view();
-        let mut lit = surface.point.leave_towards(view.wo);
-        visitor.round_point(&mut lit, surface.point.magnitude());
+        let point = interaction.point();
+        let mut lit = point.leave_towards(scatterer.wo());
+        visitor.round_point(&mut lit, point.magnitude());
         let reference = LitPoint::new(lit, lit_normal);
         let moment = (&self.world, &path.time);
         let numbers = visitor.round_light_numbers([u, v], || self.lights.magnifies(moment, reference, choice));
@@ -284,7 +378,7 @@ impl Integrator {
 
         // Weigh the sample: no BSDF sample finds a point light, and with `nee` BSDF samples leave all
         // emission to light samples
-        let scattering = guided.evaluate(light.wi);
+        let scattering = scatterer.evaluate(light.wi);
         if scattering.value.is_black() {
             return;
         }
@@ -295,26 +389,63 @@ impl Integrator {
         };
 
         // Trace the shadow ray: light that comes through the surface arrives on its other side
-        let mut ray = Ray { origin: surface.point.leave_towards(light.wi), direction: light.wi };
-        visitor.round_ray(&mut ray, Some(&surface.point));
+        let mut ray = Ray { origin: point.leave_towards(light.wi), direction: light.wi };
+        visitor.round_ray(&mut ray, Some(point));
         visitor.ray(&ray);
-        let medium = path.stack.towards(&self.media, surface, view.front, light.wi).innermost();
-        let through = self.shadow_transmittance(ray, &light, medium, &path.time);
+        let stack = interaction.media_towards(path.stack, &self.media, light.wi);
+        let through = self.shadow_transmittance(ray, &light, stack, &path.time);
         let contribution = path.throughput * scattering.value * light.radiance * (weight / light.pdf) * through;
         path.radiance += contribution;
         if V::COMPARES {
-            visitor.unguided(guided.unguided(light.wi, Density::SolidAngle(scattering.pdf)));
+            visitor.unguided(scatterer.unguided(light.wi, Density::SolidAngle(scattering.pdf)));
         }
         visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: !through.is_black(), contribution });
     }
 
-    /// The share of a sample's light that comes along its shadow ray: through all surfaces on the way, and through the medium where the ray
-    /// begins. Boundaries of media let no shadow ray through, so it stays in that one.
-    fn shadow_transmittance(&self, ray: Ray, light: &LightSample, medium: usize, time: &PathTime) -> Spectrum {
+    /// The share of a sample's light that comes along its shadow ray, which begins in the media of a stack: through all
+    /// surfaces on the way, and through media.
+    fn shadow_transmittance(&self, ray: Ray, light: &LightSample, stack: MediumStack, time: &PathTime) -> Spectrum {
         let share = |surface: &Surface| null_weight(&self.scene, surface, -ray.direction);
         let lets_through = |material: MaterialId| self.lights.lets_through(material);
+        if self.media.has_open_boundaries() {
+            return self.transmittance_across_boundaries(ray, light, stack, time);
+        }
+        // No boundary of a medium lets a shadow ray through, so it stays in the one where it begins
         let through_surfaces = self.world.transmittance(ray, light.distance, light.target, time, lets_through, share);
-        transmittance(&self.media, medium, light.distance) * through_surfaces
+        self.medium_transmittance(stack, light.distance) * through_surfaces
+    }
+
+    /// The share of light that is left after a distance within the innermost medium.
+    fn medium_transmittance(&self, stack: MediumStack, distance: f64) -> Spectrum {
+        self.media.filling(stack.innermost()).map_or(Spectrum::WHITE, |filling| left(filling.extinction, distance))
+    }
+
+    /// The share of a sample's light that comes along its shadow ray, from surface to surface in their order, because
+    /// they decide which medium lies behind them.
+    fn transmittance_across_boundaries(&self, ray: Ray, light: &LightSample, stack: MediumStack, time: &PathTime) -> Spectrum {
+        let (mut ray, mut stack, mut share, mut remaining) = (ray, stack, Spectrum::WHITE, light.distance);
+        for _ in 0..MOST_CROSSINGS {
+            let hit = self.world.closest(ray, time).filter(|hit| hit.distance < remaining);
+            let Some(hit) = hit else { return share * self.medium_transmittance(stack, remaining) };
+            let surface = self.world.surface(&ray, &hit, time);
+            if !self.lights.lets_through(surface.owner.material) {
+                // The light's own surface is the end of the way
+                let is_light = light.target.is_some_and(|target| hit.surface == SurfaceId::Primitive(target));
+                return if is_light { share * self.medium_transmittance(stack, hit.distance) } else { Spectrum::BLACK };
+            }
+            share *= self.medium_transmittance(stack, hit.distance) * null_weight(&self.scene, &surface, -ray.direction);
+            if share.is_black() {
+                return share;
+            }
+            if self.media.is_open(surface.owner.material) {
+                let front = surface.point.normal.dot(ray.direction) < 0.0;
+                stack = stack.towards(&self.media, &surface, front, ray.direction);
+            }
+            let origin = surface.point.leave_towards(ray.direction);
+            remaining -= (origin - ray.origin).dot(ray.direction);
+            ray.origin = origin;
+        }
+        Spectrum::BLACK
     }
 
     /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves

@@ -24,6 +24,7 @@ pub fn layer_scene(scene: &Scene, layer: KernelLayer) -> Cow<'_, Scene> {
     scene.render.max_depth = MOST_EDGES;
     scene.render.roulette_depth = 0.into();
     scene.render.guiding = Guiding::Off;
+    scene.clear_media();
     Cow::Owned(scene)
 }
 
@@ -94,6 +95,10 @@ impl<V: PathVisitor> PathVisitor for LayerVisitor<'_, V> {
     }
 
     fn emission(&mut self, _radiance: Spectrum, _weight: f64, contribution: Spectrum) {
+        self.add(self.edges, contribution);
+    }
+
+    fn given_off(&mut self, contribution: Spectrum) {
         self.add(self.edges, contribution);
     }
 

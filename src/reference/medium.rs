@@ -1,10 +1,10 @@
-//! Media that absorb light and scatter none, within the surfaces that enclose them.
+//! The media that a ray is in, within the surfaces that enclose them, and what they leave of light.
 
 use glam::DVec3;
 
 use super::intersect::Surface;
-use crate::scene::Media;
-use crate::scene::medium::FARTHEST;
+use crate::scene::media::FARTHEST;
+use crate::scene::{Filling, Media};
 use crate::spectrum::Spectrum;
 
 /// The numbers of the media that a ray is in, the innermost first: the one that was entered last. 0 stands for none. A fifth one within the others
@@ -13,6 +13,11 @@ use crate::spectrum::Spectrum;
 pub struct MediumStack([usize; 4]);
 
 impl MediumStack {
+    /// Around the camera.
+    pub fn around(medium: usize) -> Self {
+        Self([medium, 0, 0, 0])
+    }
+
     pub fn innermost(self) -> usize {
         self.0[0]
     }
@@ -44,13 +49,23 @@ impl MediumStack {
     }
 }
 
-/// Beer and Lambert's law: the share of light that is left after a distance within a medium.
-pub fn transmittance(media: &Media, medium: usize, distance: f64) -> Spectrum {
-    let extinction = media.extinction(medium);
+/// Beer and Lambert's law: the share of light that is left after a distance.
+pub fn left(extinction: Spectrum, distance: f64) -> Spectrum {
     if extinction.is_black() {
         return Spectrum::WHITE;
     }
     (extinction * -distance.min(FARTHEST)).exp()
+}
+
+/// The light that a medium gives off along a ray, as it arrives at the ray's origin: ∫ emission · exp(−extinction · t) dt.
+pub fn given_off(filling: &Filling, distance: f64) -> Spectrum {
+    let distance = distance.min(FARTHEST);
+    let of_channel = |emission: f64, extinction: f64| {
+        let depth = extinction * distance;
+        emission * if depth < 1e-9 { distance } else { -(-depth).exp_m1() / extinction }
+    };
+    let [emission, extinction] = [filling.emission, filling.extinction].map(Spectrum::to_rgb);
+    Spectrum::from_rgb(std::array::from_fn(|channel| of_channel(emission[channel], extinction[channel])))
 }
 
 #[cfg(test)]
@@ -61,14 +76,12 @@ mod tests {
     #[test]
     fn light_is_left_as_the_colour_says() {
         let amber = Attenuation { color: Spectrum::new(1.0, 0.5, 0.0), distance: 2.0 };
-        let mut media = Media::default();
-        media.extinctions.push(amber.extinction());
-        let left = transmittance(&media, 1, 2.0);
-        assert!(left.distance(Spectrum::new(1.0, 0.5, 1e-6)) < 1e-12, "{left}");
-        let twice = transmittance(&media, 1, 4.0);
-        assert!(twice.distance(left * left) < 1e-12, "{twice}");
-        assert_eq!(transmittance(&media, 1, f64::INFINITY), Spectrum::new(1.0, 0.0, 0.0));
-        assert_eq!(transmittance(&media, 0, 4.0), Spectrum::WHITE);
+        let once = left(amber.extinction(), 2.0);
+        assert!(once.distance(Spectrum::new(1.0, 0.5, 1e-6)) < 1e-12, "{once}");
+        let twice = left(amber.extinction(), 4.0);
+        assert!(twice.distance(once * once) < 1e-12, "{twice}");
+        assert_eq!(left(amber.extinction(), f64::INFINITY), Spectrum::new(1.0, 0.0, 0.0));
+        assert_eq!(left(Spectrum::BLACK, 4.0), Spectrum::WHITE);
     }
 
     /// A medium that is left makes way for the one around it, and one that ends within another takes itself out.

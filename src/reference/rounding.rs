@@ -8,9 +8,9 @@
 use glam::DVec3;
 
 use super::bsdf::{BsdfSample, Density};
-use super::guided::GuidedBsdf;
 use super::intersect::{Hit, PathTime, Ray, Surface, SurfacePoint, World};
 use super::lights::{LightSample, Lights};
+use super::scatterer::Scatterer;
 use super::trace::{LightConnection, PathVisitor};
 use crate::math::POINT_ERROR;
 use crate::sampling::hash::mix;
@@ -66,6 +66,10 @@ impl Rounding {
 impl PathVisitor for Rounding {
     fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, _throughput: Spectrum) {
         self.decided(1 + ((surface.owner.shape as u64) << 32 | surface.owner.part as u64));
+    }
+
+    fn medium(&mut self, _depth: u32, _position: DVec3, _wo: DVec3, _throughput: Spectrum) {
+        self.decided(6);
     }
 
     fn light(&mut self, connection: &LightConnection) {
@@ -154,11 +158,11 @@ impl PathVisitor for Rounding {
         }
     }
 
-    fn round_sample(&mut self, sample: &mut BsdfSample, bsdf: &GuidedBsdf) {
+    fn round_sample(&mut self, sample: &mut BsdfSample, scatterer: &Scatterer<'_>) {
         // The density of a narrow lobe changes much faster than the direction.
-        let exact = bsdf.evaluate(sample.wi).pdf;
+        let exact = scatterer.evaluate(sample.wi).pdf;
         self.round_direction(&mut sample.wi);
-        let rounded = bsdf.evaluate(sample.wi).pdf;
+        let rounded = scatterer.evaluate(sample.wi).pdf;
         if let Density::SolidAngle(pdf) = &mut sample.density
             && exact > 0.0
             && rounded > 0.0

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::bsdf::{BsdfSample, View};
-use super::guided::GuidedBsdf;
-use super::intersect::{Hit, PathTime, Ray, Surface, SurfacePoint, World};
+use super::intersect::{Hit, Owner, PathTime, Ray, Surface, SurfacePoint, World};
 use super::lights::{LightSample, Lights};
+use super::scatterer::Scatterer;
 use crate::scene::MaterialId;
 use crate::spectrum::Spectrum;
 
@@ -32,6 +32,10 @@ pub trait PathVisitor {
     /// The path met a surface; `throughput` is that of the path up to it, `depth` is that of the ray that met
     /// it.
     fn surface(&mut self, _depth: u32, _surface: &Surface, _wo: DVec3, _throughput: Spectrum) {}
+    /// A medium scatters the path at this place.
+    fn medium(&mut self, _depth: u32, _position: DVec3, _wo: DVec3, _throughput: Spectrum) {}
+    /// The medium on the way of the path gave off light.
+    fn given_off(&mut self, _contribution: Spectrum) {}
     /// The surface emits towards the path.
     fn emission(&mut self, _radiance: Spectrum, _weight: f64, _contribution: Spectrum) {}
     /// The method below is called.
@@ -78,7 +82,7 @@ pub trait PathVisitor {
     /// A sample of one of the lights.
     fn round_light(&mut self, _light: &mut LightSample, _lights: &Lights) {}
     /// A sampled direction, with the density that belongs to it.
-    fn round_sample(&mut self, _sample: &mut BsdfSample, _bsdf: &GuidedBsdf) {}
+    fn round_sample(&mut self, _sample: &mut BsdfSample, _scatterer: &Scatterer<'_>) {}
 }
 
 /// Counts rays.
@@ -100,22 +104,29 @@ pub struct FoundLight {
     pub contribution: Spectrum,
 }
 
-/// One surface of a traced path.
+/// The surface at a vertex of a traced path.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PathVertex {
-    /// Path edges up to here; the first surface has 1.
-    pub depth: u32,
-    pub position: DVec3,
+pub struct VertexSurface {
     /// Front side.
     pub geometric_normal: DVec3,
-    /// On wo's side; none where the path ended before scattering.
-    pub shading_normal: Option<DVec3>,
-    pub wo: DVec3,
     /// Indices into the scene.
     pub shape: usize,
     /// Face of a mesh or box.
     pub part: usize,
     pub material: MaterialId,
+}
+
+/// One vertex of a traced path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathVertex {
+    /// Path edges up to here; the first vertex has 1.
+    pub depth: u32,
+    pub position: DVec3,
+    /// The surface; none within a medium.
+    pub surface: Option<VertexSurface>,
+    /// On wo's side; none where the path ended before scattering, and within a medium.
+    pub shading_normal: Option<DVec3>,
+    pub wo: DVec3,
     /// The path's throughput up to here.
     pub throughput: Spectrum,
     pub emission: Option<FoundLight>,
@@ -123,6 +134,14 @@ pub struct PathVertex {
     pub scattered: Option<BsdfSample>,
     /// Probability of surviving Russian roulette, and whether the path did.
     pub roulette: Option<(f64, bool)>,
+}
+
+impl PathVertex {
+    /// A vertex at which nothing has happened yet.
+    fn new(depth: u32, position: DVec3, surface: Option<VertexSurface>, wo: DVec3, throughput: Spectrum) -> Self {
+        let (emission, light, scattered, roulette) = (None, None, None, None);
+        Self { depth, position, surface, shading_normal: None, wo, throughput, emission, light, scattered, roulette }
+    }
 }
 
 /// Everything that happened along one path.
@@ -149,21 +168,13 @@ impl PathVisitor for PathTrace {
     }
 
     fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: Spectrum) {
-        self.vertices.push(PathVertex {
-            depth,
-            position: surface.point.position,
-            geometric_normal: surface.point.normal,
-            shading_normal: None,
-            wo,
-            shape: surface.owner.shape,
-            part: surface.owner.part,
-            material: surface.owner.material,
-            throughput,
-            emission: None,
-            light: None,
-            scattered: None,
-            roulette: None,
-        });
+        let Owner { shape, part, material } = surface.owner;
+        let of_vertex = VertexSurface { geometric_normal: surface.point.normal, shape, part, material };
+        self.vertices.push(PathVertex::new(depth, surface.point.position, Some(of_vertex), wo, throughput));
+    }
+
+    fn medium(&mut self, depth: u32, position: DVec3, wo: DVec3, throughput: Spectrum) {
+        self.vertices.push(PathVertex::new(depth, position, None, wo, throughput));
     }
 
     fn emission(&mut self, radiance: Spectrum, weight: f64, contribution: Spectrum) {

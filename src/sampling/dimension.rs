@@ -30,6 +30,19 @@ pub enum VertexDimension {
     Blend = 7,
 }
 
+/// Uses of random numbers along a ray through a medium, before the vertex at its end. No sequence covers them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+pub enum MediumDimension {
+    /// Light is scattered on the way, and how the place is drawn.
+    Event = 0,
+    /// The distance to the place.
+    Distance = 1,
+}
+
+/// The first block of these numbers, behind those of all vertices that a path can have.
+const FIRST_MEDIUM_BLOCK: u32 = 1 << 27;
+
 /// One coordinate of the path's point in primary sample space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Dimension(pub u32);
@@ -61,6 +74,11 @@ impl Dimension {
     /// `vertex` counts surfaces from 0, the first one that the camera sees.
     pub const fn vertex(vertex: u32, dimension: VertexDimension) -> Self {
         Self(CAMERA_DIMENSIONS + vertex * VERTEX_DIMENSIONS + dimension as u32)
+    }
+
+    /// `vertex` is the number of the vertex at the ray's end.
+    pub const fn medium(vertex: u32, dimension: MediumDimension) -> Self {
+        Self(4 * (FIRST_MEDIUM_BLOCK + vertex) + dimension as u32)
     }
 
     /// Says that this is a coordinate of the position inside the pixel.

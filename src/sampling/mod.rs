@@ -30,7 +30,7 @@ pub mod solid_angle;
 pub mod strata;
 
 pub use alias::AliasTable;
-pub use dimension::{CameraDimension, Dimension, VertexDimension};
+pub use dimension::{CameraDimension, Dimension, MediumDimension, VertexDimension};
 pub use environment::MapDistribution;
 pub use guide::Guide;
 pub use hierarchical_warp::{HierarchicalWarp, WarpSample};

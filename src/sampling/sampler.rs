@@ -60,6 +60,12 @@ impl<'a> PathSampler<'a> {
         [bits(0), bits(1), bits(2)]
     }
 
+    /// Uniform in (0, 1): all 32 bits, rounded to f32. It is fine near 0, where rare events are.
+    #[inline]
+    pub fn open(&self, dimension: Dimension) -> f64 {
+        f64::from((self.bits(dimension) as f32 + 0.5) * (1.0 / 4_294_967_296.0)).min(LARGEST_NUMBER)
+    }
+
     /// Uniform in [0, 1): a multiple of 2⁻²⁴, exact in f32 as well.
     #[inline]
     pub fn uniform(&self, dimension: Dimension) -> f64 {

@@ -158,6 +158,9 @@ const OF_FEATURES: &[Switch] = &[
     switch("ATTRIBUTE_CHUNKS").requires(&["ATTRIBUTES"]),
     switch("BECKMANN"),
     switch("BLENDS").one_of(&["MIXTURE", "PICK"]),
+    // Places of scattering are drawn by angle alone, or by distance alone.
+    switch("BY_ANGLE").requires(&["SCATTERING"]).excludes(&["BY_DISTANCE"]),
+    switch("BY_DISTANCE").requires(&["SCATTERING"]),
     // Some normal map holds heights.
     switch("BUMP_MAPS").requires(&["NORMAL_MAPS"]),
     // Kernels walk nodes.
@@ -214,8 +217,9 @@ const OF_FEATURES: &[Switch] = &[
         .one_of(&["AREA_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_PICTURE"]),
     // Some delta light throws a texture.
     switch("LIGHT_TEXTURES").requires(&["DELTA_LIGHTS", "TEXTURES"]),
-    // Some surface encloses a medium that absorbs.
+    // Some surface encloses a medium that takes or gives light, or the camera is within one.
     switch("MEDIA"),
+    switch("MEDIUM_EMISSION").requires(&["MEDIA"]),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
     // A mixture has lobes besides the diffuse one.
     switch("MORE_LOBES").requires(&["MIXTURE"]),
@@ -233,6 +237,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("ONE_LIGHT"),
     switch("ONE_SIDED"),
     switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(HELD_BESIDE_TRIANGLES),
+    // Null surfaces bound media.
+    switch("OPEN_BOUNDARIES").requires(&["MEDIA", "NULL_SURFACES"]),
     switch("ORTHOGRAPHIC"),
     switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
     switch("PERLIN").requires(&["PROCEDURAL_TEXTURES"]),
@@ -257,6 +263,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("ROULETTE"),
     // Some texture lies by the second texture coordinates of meshes.
     switch("SECOND_UVS").requires(&["ATTRIBUTES", "TEXTURES"]),
+    switch("SCATTERING").requires(&["MEDIA"]),
     switch("SEPARABLE_MASKING"),
     switch("SEQUENCE"),
     switch("SHEEN").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),

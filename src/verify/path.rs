@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::cause::{self, Cause, Differing};
 use super::{PATH_TOLERANCE, planted};
 use crate::cpu::ReferenceRenderer;
-use crate::gpu::trace::TracedVertex;
+use crate::gpu::trace::{TracedPlace, TracedVertex};
 use crate::gpu::{Device, GpuRenderer};
 use crate::plan::trace_record::TRACED_VERTICES;
 use crate::plan::{Fault, PlanOptions};
@@ -224,6 +224,10 @@ fn outside() -> (&'static str, Value) {
     ("material", Value::Text("(left the scene)".into()))
 }
 
+fn within_medium() -> (&'static str, Value) {
+    ("material", Value::Text("(within a medium)".into()))
+}
+
 fn reference_vertices(scene: &Scene, trace: &PathTrace) -> Vec<Quantities> {
     let mut vertices: Vec<Quantities> = trace.vertices.iter().map(|vertex| reference_vertex(scene, vertex)).collect();
     if let Some(escaped) = trace.escaped {
@@ -252,11 +256,16 @@ fn push_found(quantities: &mut Quantities, found: Option<FoundLight>) {
 fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
     let mut quantities = vec![
         ("direction", vector(-vertex.wo)),
-        ("shape", Value::Text(scene.label_of(vertex.shape))),
-        ("material", Value::Text(scene.materials[vertex.material].name.clone())),
         ("position", vector(vertex.position + scene.center())),
         ("throughput", color(vertex.throughput)),
     ];
+    match &vertex.surface {
+        Some(surface) => quantities.extend([
+            ("shape", Value::Text(scene.label_of(surface.shape))),
+            ("material", Value::Text(scene.materials[surface.material].name.clone())),
+        ]),
+        None => quantities.push(within_medium()),
+    }
     if let Some(normal) = vertex.shading_normal {
         quantities.push(("shading normal", vector(normal)));
     }
@@ -293,12 +302,13 @@ fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
 
 fn device_vertex(scene: &Scene, vertex: &TracedVertex) -> Quantities {
     let mut quantities = vec![("direction", single(vertex.direction)), ("throughput", single(vertex.throughput))];
-    match vertex.surface {
-        None => quantities.push(outside()),
-        Some((position, normal, material)) => {
+    let position = |position: [f32; 3]| ("position", vector(DVec3::from(position.map(f64::from)) + scene.center()));
+    match vertex.place {
+        TracedPlace::Outside => quantities.push(outside()),
+        TracedPlace::Medium(place) => quantities.extend([within_medium(), position(place)]),
+        TracedPlace::Surface(place, normal, material) => {
             quantities.push(("material", Value::Text(scene.materials[material].name.clone())));
-            quantities.push(("position", vector(DVec3::from(position.map(f64::from)) + scene.center())));
-            quantities.push(("shading normal", single(normal)));
+            quantities.extend([position(place), ("shading normal", single(normal))]);
         }
     }
     if let Some(found) = vertex.found.filter(|found| found.contribution != [0.0; 3]) {

@@ -8,7 +8,8 @@ use std::process::Command;
 use super::text;
 
 /// Folders whose files documents name by path.
-const FOLDERS: [&str; 9] = ["src/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
+const FOLDERS: [&str; 10] =
+    ["src/", "crates/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
 /// Documents about the past: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
 /// Flags of cargo and of openjd that documents use.

@@ -83,7 +83,14 @@ fn stage() -> Scene {
 }
 
 fn material(scene: &mut Scene, kind: MaterialKind, emission: Option<Emission>) -> MaterialId {
-    scene.materials.push(Material { name: scene.materials.len().to_string(), kind, normal_map: None, emission, two_sided: true });
+    scene.materials.push(Material {
+        name: scene.materials.len().to_string(),
+        kind,
+        normal_map: None,
+        emission,
+        two_sided: true,
+        interior: None,
+    });
     scene.materials.len() - 1
 }
 

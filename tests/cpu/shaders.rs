@@ -123,7 +123,7 @@ fn ordinary_kernels_hold_nothing_for_debugging() {
         let does_something = |statement: &&naga::Statement| !matches!(statement, naga::Statement::Return { value: None });
         let statements: usize =
             hooks.inspect(|_| count += 1).map(|(_, function)| function.body.iter().filter(does_something).count()).sum();
-        assert_eq!(count, 8, "the hooks are where they were");
+        assert_eq!(count, 9, "the hooks are where they were");
         let has_target = module.global_variables.iter().any(|(_, variable)| variable.name.as_deref() == Some("path_trace"));
         let faults = composed.text.lines().filter(|line| !line.starts_with("const ") && line.contains("PLANTED_")).count();
         (statements, has_target, faults)

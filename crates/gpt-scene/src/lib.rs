@@ -18,6 +18,8 @@ pub mod input;
 #[doc(hidden)]
 pub mod layer;
 #[doc(hidden)]
+pub mod light_examples;
+#[doc(hidden)]
 pub mod load;
 #[doc(hidden)]
 pub mod math;

@@ -7,6 +7,7 @@
 #import core/sampler.wgsl
 #import shading/material/bsdf.wgsl
 #import shading/light/choice.wgsl
+#import shading/path/arrival.wgsl
 #import shading/light/sampling.wgsl
 #import shading/light/hidden_emitters.wgsl
 #import shading/path/layer.wgsl
@@ -94,7 +95,8 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
         }
     }
     var radiance = path.throughput * value.value * light.radiance * planted_factor(surface.material);
-    radiance *= shadow_medium_transmittance(path, surface, light.wi, light.distance);
+    let media = media_around(path, surface, light.wi);
+    radiance *= shadow_medium_transmittance(media, light.distance);
     let count = f32(light_samples_at(depth));
     // Several samples are as dense together as one of as many times its density.
     let pdf_light = count * light.pdf_solid_angle;
@@ -110,7 +112,7 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
     }
     let chosen = traced_light(sampled_from, facing_of(surface), light_bits);
     trace_light(light.wi, pdf_light, radiance, weight, chosen, value.pdf_solid_angle);
-    return ShadowRay(ray, ray_length, in_layer(radiance, depth + 1u));
+    return ShadowRay(ray, ray_length, in_layer(radiance, depth + 1u), media);
 }
 
 // The shadow ray of light sample `number`, not the first, of a vertex that takes more.
@@ -129,36 +131,60 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     let depth = depth_at(incoming, vertex);
     let wo = -incoming.ray.direction;
     var shading = no_shading();
-    if hit.primitive == NONE {
-        incoming.throughput = arriving_throughput(incoming, INFINITY_DISTANCE);
-        trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
-        shading.radiance = escaped_radiance(incoming, depth);
-        return shading;
+    let has_left = hit.primitive == NONE;
+    var surface: Surface;
+    // A hit in an instance may come without its distance.
+    var ray_length = INFINITY_DISTANCE;
+    if !has_left {
+        surface = hit_surface(incoming.ray, hit);
+        ray_length = distance(surface.position, incoming.ray.origin);
     }
-    var surface = hit_surface(incoming.ray, hit);
     if HAS_WEIGHTS_BY_VIEWER {
         surface.by_camera = depth == 1u;
     }
-    // A hit in an instance may come without its distance.
-    incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
+    var phase = 0u;
+    if HAS_SCATTERING {
+        let arrival = arrive_through_medium(incoming, ray_length, vertex);
+        shading.radiance = in_layer(arrival.radiance, depth);
+        incoming.throughput = arrival.throughput;
+        phase = arrival.phase;
+        if phase != 0u {
+            surface = medium_surface(incoming.ray, arrival.distance);
+        }
+    } else {
+        if HAS_MEDIUM_EMISSION {
+            shading.radiance = in_layer(radiance_of_medium(incoming, ray_length), depth);
+        }
+        incoming.throughput = arriving_throughput(incoming, ray_length);
+    }
+    if has_left && phase == 0u {
+        trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
+        shading.radiance += escaped_radiance(incoming, depth);
+        return shading;
+    }
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     trace_surface(surface.position, surface.shading_normal, surface.material);
-    if HAS_HIDDEN_EMITTERS && depth == 1u && gives_light(surface.material) {
+    if phase != 0u {
+        trace_medium();
+    }
+    if HAS_HIDDEN_EMITTERS && phase == 0u && depth == 1u && gives_light(surface.material) {
         shading.alive = true;
         *path = path_behind(incoming, surface);
         return shading;
     }
-    shading.radiance = emitted_radiance(incoming, surface, depth);
+    if phase == 0u {
+        shading.radiance += emitted_radiance(incoming, surface, depth);
+    }
 
     // The last edge may go on through null surfaces.
     let last_edge = depth == MAX_DEPTH;
-    if last_edge && !HAS_NULL_SURFACES {
+    if last_edge && (phase != 0u || !HAS_NULL_SURFACES) {
         return shading;
     }
     let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
     let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
-    let scatterer = load_scatterer(surface, wo, uniform_float(more_random.w));
-    let samples_light = HAS_LIGHTS && has_non_delta_lobe(scatterer.bsdf) && !last_edge;
+    let scatterer = scatterer_at(surface, phase, wo, uniform_float(more_random.w));
+    let samples_light = HAS_LIGHTS && has_non_delta_scattering(scatterer) && !last_edge;
     var light = no_light();
     if samples_light {
         light = sample_light(shading_point(surface), facing_of(surface), random);

@@ -4,7 +4,8 @@
 #import shading/material/scattering.wgsl
 #import shading/surface.wgsl
 #import shading/cell_grid.wgsl
-#import shading/path/medium.wgsl
+#import shading/medium/medium.wgsl
+#import shading/medium/stack.wgsl
 
 struct Path {
     ray: Ray,
@@ -32,6 +33,8 @@ struct ShadowRay {
     distance: f32,
     // The radiance that the path gains if nothing is in the way; all 0: there is no shadow ray.
     radiance: Spectrum,
+    // With OPEN_BOUNDARIES, the media around its origin.
+    media: MediumStack,
 }
 
 // The start of light samples of a vertex.
@@ -65,6 +68,9 @@ fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
     path.pixel = pixel;
     path.sample_in_pass = sample_in_pass;
     path.lit_from = ray.origin;
+    if HAS_MEDIA {
+        path.media = around_camera();
+    }
     return path;
 }
 
@@ -97,7 +103,7 @@ fn facing_of_lit_vertex(path: Path) -> u32 {
 }
 
 fn no_shadow_ray() -> ShadowRay {
-    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, BLACK);
+    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, BLACK, MediumStack(0u));
 }
 
 // True where the path may gain anything from the shadow ray.
@@ -130,11 +136,20 @@ fn arriving_throughput(path: Path, ray_length: f32) -> Spectrum {
     }
 }
 
-// The share of light that is left of what a light in direction `wi` sends to a surface of the path. Boundaries of media let no shadow ray through, so
-// the ray stays in the medium where it begins.
-fn shadow_medium_transmittance(path: Path, surface: Surface, wi: vec3<f32>, ray_length: f32) -> Spectrum {
+// The media around rays that leave a place of the path towards a direction.
+fn media_around(path: Path, surface: Surface, wi: vec3<f32>) -> MediumStack {
     if HAS_MEDIA {
-        return medium_transmittance(innermost(media_towards(surface, wi, path.media)), ray_length);
+        return media_towards(surface, wi, path.media);
+    } else {
+        return MediumStack(0u);
+    }
+}
+
+// The share of light that is left of what a light sends along a shadow ray that begins within these media. It is 1 where boundaries of media are
+// crossed on the way: the shadow ray itself finds it then. Elsewhere no boundary lets a shadow ray through, so it stays in the medium where it begins.
+fn shadow_medium_transmittance(media: MediumStack, ray_length: f32) -> Spectrum {
+    if HAS_MEDIA && !HAS_OPEN_BOUNDARIES {
+        return medium_transmittance(innermost(media), ray_length);
     } else {
         return WHITE;
     }
@@ -156,7 +171,7 @@ fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput
         path.pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);
         path.lit_from = select(path.ray.origin, incoming.lit_from, drawn.is_null);
     }
-    if HAS_MEDIA && !drawn.is_null {
+    if HAS_MEDIA && (!drawn.is_null || (HAS_OPEN_BOUNDARIES && is_open_boundary(surface.material))) {
         path.media = media_towards(surface, drawn.wi, incoming.media);
     }
     return path;

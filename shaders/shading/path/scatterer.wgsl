@@ -1,10 +1,11 @@
-// Scattering at a surface: its BSDF, and the guide where paths are guided; with the shadowing term of mapped
-// normals.
+// Scattering at a surface: its BSDF, and the guide where paths are guided, with the shadowing term of mapped
+// normals. Within a medium: its phase function. src/reference/scatterer.rs is the same in f64.
 #import shading/material/bsdf.wgsl
 #import shading/material/scattering.wgsl
 #import shading/surface.wgsl
 #import shading/path/guide.wgsl
 #import shading/path/guided.wgsl
+#import shading/medium/phase.wgsl
 #import shading/texture/normal_shadowing.wgsl
 
 struct Scatterer {
@@ -12,20 +13,52 @@ struct Scatterer {
 #if GUIDE
     guide: GuideCell,
 #endif
+#if SCATTERING
+    // Within a medium, its phase lobes; there is no BSDF. Else 0.
+    phase: u32,
+#endif
 }
 
 // `choice` picks a part of a blend where one is picked.
 fn load_scatterer(surface: Surface, wo: vec3<f32>, choice: f32) -> Scatterer {
     let bsdf = load_bsdf(surface, wo, choice);
-    if HAS_GUIDE {
-        return Scatterer(bsdf, guide_at(surface, guided_probability(bsdf)));
-    } else {
-        return Scatterer(bsdf);
+    var scatterer: Scatterer;
+    scatterer.bsdf = bsdf;
+#if GUIDE
+    scatterer.guide = guide_at(surface, guided_probability(bsdf));
+#endif
+    return scatterer;
+}
+
+// Scattering at a surface, or within a medium of these phase lobes, which are not 0 there.
+fn scatterer_at(surface: Surface, phase: u32, wo: vec3<f32>, choice: f32) -> Scatterer {
+#if SCATTERING
+    if phase != 0u {
+        var scatterer: Scatterer;
+        scatterer.phase = phase;
+        return scatterer;
     }
+#endif
+    return load_scatterer(surface, wo, choice);
+}
+
+// Directions of light samples can be scattered.
+fn has_non_delta_scattering(scatterer: Scatterer) -> bool {
+#if SCATTERING
+    if scatterer.phase != 0u {
+        return true;
+    }
+#endif
+    return has_non_delta_lobe(scatterer.bsdf);
 }
 
 // The non-delta lobes' f |cos|, and the density with which wi is drawn.
 fn evaluate_scatterer(scatterer: Scatterer, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
+#if SCATTERING
+    if scatterer.phase != 0u {
+        return evaluate_phase(scatterer.phase, wo, wi);
+    }
+#endif
 #if GUIDE
     var value = evaluate_guided(scatterer.guide, scatterer.bsdf, surface, wo, wi);
 #else
@@ -41,6 +74,15 @@ fn evaluate_scatterer(scatterer: Scatterer, surface: Surface, wo: vec3<f32>, wi:
 fn scatter_by(
     scatterer: Scatterer, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
+#if SCATTERING
+    if scatterer.phase != 0u {
+        var light_value = no_value();
+        if samples_light {
+            light_value = evaluate_phase(scatterer.phase, wo, light_wi);
+        }
+        return Scattering(light_value, sample_phase(scatterer.phase, wo, choice, u, v));
+    }
+#endif
     if HAS_GUIDE {
         return scatter_guided(scatterer.guide, scatterer.bsdf, surface, wo, samples_light, light_wi, choice, u, v);
     } else {

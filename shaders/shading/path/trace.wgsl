@@ -28,6 +28,11 @@ fn trace_surface(position: vec3<f32>, normal: vec3<f32>, material: u32) {
     traced[1] = vec4<f32>(normal, bitcast<f32>(material));
 }
 
+// The vertex is within a medium.
+fn trace_medium() {
+    trace_note(TRACED_MEDIUM);
+}
+
 fn trace_found(contribution: Spectrum, weight: f32) {
     traced[4] = vec4<f32>(contribution, weight);
     trace_note(TRACED_FOUND);
@@ -57,7 +62,7 @@ fn trace_roulette(survival: f32) {
 }
 
 // The light sample written down last reaches its light, of which this share comes through.
-fn trace_light_seen(share: f32) {
+fn trace_light_seen(share: Spectrum) {
     traced[6] = vec4<f32>(traced[6].xyz * share, traced[6].w);
     trace_note(TRACED_LIGHT_SEEN);
 }
@@ -75,11 +80,13 @@ fn trace_arrival(direction: vec3<f32>, pdf: f32, throughput: Spectrum, primitive
 
 fn trace_surface(position: vec3<f32>, normal: vec3<f32>, material: u32) {}
 
+fn trace_medium() {}
+
 fn trace_found(contribution: Spectrum, weight: f32) {}
 
 fn trace_light(wi: vec3<f32>, pdf: f32, contribution: Spectrum, weight: f32, light: u32, bsdf_pdf: f32) {}
 
-fn trace_light_seen(share: f32) {}
+fn trace_light_seen(share: Spectrum) {}
 
 fn trace_sample(wi: vec3<f32>, pdf: f32, weight: Spectrum, eta_scale: f32, is_null: bool) {}
 

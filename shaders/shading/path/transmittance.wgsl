@@ -52,6 +52,18 @@ fn hit_transmittance(ray: Ray, hit: Hit, limit: f32) -> f32 {
     return share;
 }
 
+// The share of light that goes straight on through a surface.
+fn null_share(surface: Surface, ray: Ray) -> f32 {
+    if (bitcast<u32>(tables[surface.material * MATERIAL_WORDS + 2u].w) & LETS_THROUGH) == 0u {
+        return 0.0;
+    }
+    if HAS_BLENDS {
+        return null_weight(surface, -ray.direction);
+    } else {
+        return 1.0;
+    }
+}
+
 fn is_null_part(run: PartRun, index: u32) -> bool {
     let material = part_material(run, index);
     return (bitcast<u32>(tables[material * MATERIAL_WORDS].w) & 255u) == NULL_SURFACES;

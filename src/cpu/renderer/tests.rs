@@ -30,7 +30,14 @@ fn scene(size: [u32; 2]) -> Scene {
     ];
     for (index, kind) in kinds.into_iter().enumerate() {
         let emission = (index == 3).then(|| Emission { radiance: grey(20.0), two_sided: false });
-        scene.materials.push(Material { name: index.to_string(), kind, normal_map: None, emission, two_sided: true });
+        scene.materials.push(Material {
+            name: index.to_string(),
+            kind,
+            normal_map: None,
+            emission,
+            two_sided: true,
+            interior: None,
+        });
     }
     let floor = Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::Y });
     let ball = |x: f64, y: f64, radius: f64| Geometry::Sphere(Sphere { center: DVec3::new(x, y, 0.0), radius });

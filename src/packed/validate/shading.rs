@@ -65,13 +65,14 @@ impl PackedScene {
         if material.kind() > material::BLEND || material.kind_and_form >> material::FORM_SHIFT & !FORMS != 0 {
             return Err(format!("is of kind {:#x}", material.kind_and_form));
         }
-        let own_flags = material::EMITS | material::EMITS_TWO_SIDED | material::LETS_THROUGH | material::FRONT_ONLY;
+        let own_flags =
+            material::EMITS | material::EMITS_TWO_SIDED | material::LETS_THROUGH | material::FRONT_ONLY | material::OPEN_BOUNDARY;
         let known_flags = own_flags | if is_blend { material::PARTS_EMIT } else { 0 };
         if material.emission_flags & ((1 << material::MEDIUM_SHIFT) - 1) & !known_flags != 0 {
             return Err(format!("has the flags {:#x}", material.emission_flags));
         }
-        if material.medium() as usize > self.materials.media.len() {
-            return Err(format!("encloses medium {} of {}", material.medium(), self.materials.media.len()));
+        if material.medium() as usize > self.materials.media.media.len() {
+            return Err(format!("encloses medium {} of {}", material.medium(), self.materials.media.media.len()));
         }
         let lobe = LobeKind::ALL.get(material.kind() as usize);
         let [to_look_up, table] = lobe.map_or([0, 0], |lobe| lobe.further_counts(material.kind_and_form >> material::FORM_SHIFT));

@@ -8,6 +8,7 @@ use super::Integrator;
 use crate::reference::camera::ProjectiveCamera;
 use crate::reference::intersect::{Outline, Owner, PathTime, Ray, World};
 use crate::reference::lights::Lights;
+use crate::reference::medium::MediumStack;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::{Guide, LightCells, LitPoint};
@@ -129,7 +130,7 @@ impl Integrator {
             return [0.0; 2];
         }
         let ray = Ray { origin: from.point, direction: sample.wi };
-        let through = self.shadow_transmittance(ray, &sample, 0, &time);
+        let through = self.shadow_transmittance(ray, &sample, MediumStack::around(self.media.around_camera), &time);
         let free = sample.radiance.luminance() * cosine / sample.pdf;
         // Surfaces let as much of every channel through.
         [free, free * through.max_component()]

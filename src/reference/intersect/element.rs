@@ -65,6 +65,12 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
+    /// A place that stands for it: a point uniform over the area, or its centre.
+    fn place(&self, pose: Option<&Pose>, u1: f64, u2: f64) -> Option<DVec3> {
+        let (at_rest, _) = self.sample_area(u1, u2)?;
+        Some(pose.map_or(at_rest, |pose| pose.point(&at_rest)).position)
+    }
+
     /// Its normal. None: it is not flat, or infinite.
     fn normal(&self) -> Option<DVec3> {
         self.sample_area(0.5, 0.5).map(|(point, _)| point.normal)

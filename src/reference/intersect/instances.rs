@@ -8,7 +8,7 @@ use super::owner::{Owner, SurfaceId};
 use super::pose::{self, PathTime, Pose};
 use super::ray::Local;
 use super::shape::{self, Placement, Primitive, Triangle};
-use crate::scene::{Instances as Entry, MaterialId, MaterialKind, Motion, Scene, Shape};
+use crate::scene::{Instances as Entry, MaterialId, Motion, Scene, Shape};
 
 /// All instances of a scene.
 #[derive(Debug, Clone)]
@@ -154,7 +154,7 @@ impl Group {
             for (part, primitive) in shape::primitives(&Placement::new(shape)) {
                 let material = shape.face_material(part);
                 if let Primitive::Triangle(triangle) = primitive
-                    && !matches!(scene.materials[material].kind, MaterialKind::Pass)
+                    && !scene.materials[material].is_nothing()
                 {
                     unsorted.push((triangle, Owner { shape: index, part, material }));
                 }

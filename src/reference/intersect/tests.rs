@@ -11,7 +11,8 @@ use crate::statistics::random::SplitMix64;
 
 fn world(shapes: Vec<(Geometry, Vec<TransformStep>)>) -> World {
     let kinds = [MaterialKind::Emissive, MaterialKind::Pass];
-    let material = |kind| Material { name: "material".into(), kind, normal_map: None, emission: None, two_sided: true };
+    let material =
+        |kind| Material { name: "material".into(), kind, normal_map: None, emission: None, two_sided: true, interior: None };
     let shape = |(geometry, steps)| Shape {
         label: "shape".into(),
         geometry,

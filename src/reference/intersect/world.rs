@@ -14,7 +14,7 @@ use super::shape::{self, Placement, Primitive};
 use crate::emission_map::LampPart;
 use crate::reference::work;
 use crate::renderer::RenderError;
-use crate::scene::{MaterialId, MaterialKind, Scene, Shape};
+use crate::scene::{MaterialId, Scene, Shape};
 use crate::texture::Coordinates;
 
 /// A ray's closest crossing.
@@ -404,7 +404,7 @@ impl Collected {
             let material = shape.face_material(part);
             let owner = Owner { shape: index, part, material };
             let is_infinite = primitive.element().bounds().is_none();
-            if !matches!(scene.materials[material].kind, MaterialKind::Pass) {
+            if !scene.materials[material].is_nothing() {
                 let list = if is_infinite { &mut self.infinite } else { &mut self.primitives };
                 list.push((primitive, owner));
             } else if shape.portal && !is_infinite && primitive.area() > 0.0 {

@@ -10,6 +10,9 @@ use crate::spectrum::Spectrum;
 pub trait DeltaLight: Debug + Send + Sync {
     /// Light that arrives at a point. None where none does.
     fn arriving(&self, point: DVec3) -> Option<Arriving>;
+
+    /// None: it is at infinity.
+    fn position(&self) -> Option<DVec3>;
 }
 
 /// Light that arrives at a point from a delta light.

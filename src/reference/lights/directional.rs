@@ -13,4 +13,8 @@ impl DeltaLight for DirectionalLight {
     fn arriving(&self, _: DVec3) -> Option<Arriving> {
         Some(Arriving { wi: -self.direction, distance: f64::INFINITY, irradiance: self.irradiance })
     }
+
+    fn position(&self) -> Option<DVec3> {
+        None
+    }
 }

@@ -371,6 +371,20 @@ impl Lights {
         }
     }
 
+    /// The place of the light that is chosen at a point, by bits as [`Lights::sample`] has them: a point of its surface, the centre of a sphere, or
+    /// its position. None of lights at infinity.
+    pub fn place(&self, (world, time): (&World, &PathTime), from: LitPoint, choice: u32, [u, v]: [u32; 2]) -> Option<DVec3> {
+        let (light, probability) = self.choose(from, choice);
+        match &self.lights[light] {
+            _ if probability == 0.0 => None,
+            SampledLight::Area(index) => {
+                world.primitive(*index).element().place(world.pose(*index, time), uniform(u), uniform(v))
+            }
+            SampledLight::Delta(light) => light.position(),
+            SampledLight::Environment | SampledLight::Portal(_) => None,
+        }
+    }
+
     /// Density, per steradian, with which [`Lights::sample`] draws the direction `wi` for the environment, by whichever way; 0 where it
     /// cannot.
     pub fn environment_pdf(&self, world: &World, from: impl Into<LitPoint>, wi: DVec3) -> f64 {

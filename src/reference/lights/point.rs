@@ -13,4 +13,8 @@ impl DeltaLight for PointLight {
     fn arriving(&self, point: DVec3) -> Option<Arriving> {
         Arriving::from_position(self.position, point, |_| self.intensity)
     }
+
+    fn position(&self) -> Option<DVec3> {
+        Some(self.position)
+    }
 }

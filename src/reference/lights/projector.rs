@@ -27,4 +27,8 @@ impl DeltaLight for Thrower {
             |direction: DVec3| self.light.irradiance * self.picture.color(uv) / direction.dot(self.light.direction).powi(3);
         Arriving::from_position(self.light.position, point, intensity).filter(|_| is_inside)
     }
+
+    fn position(&self) -> Option<DVec3> {
+        Some(self.light.position)
+    }
 }

@@ -41,6 +41,10 @@ impl DeltaLight for Spot {
             self.intensity * falloff * color.unwrap_or(Spectrum::WHITE)
         })
     }
+
+    fn position(&self) -> Option<DVec3> {
+        Some(self.position)
+    }
 }
 
 /// How much of a spot light's intensity goes in a direction whose cosine with the axis is `cosine`: 1 within the inner angle, 0 past the

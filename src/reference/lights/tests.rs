@@ -3,9 +3,10 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::*;
+use gpt_scene::light_examples::delta_light_examples;
+
 use crate::compare::sidak;
 use crate::effort::in_full;
-use crate::load::file::delta_light_examples;
 use crate::reference::warp;
 use crate::scene::light::LightStrength;
 use crate::scene::{
@@ -26,6 +27,7 @@ fn glowing(shapes: Vec<Geometry>) -> (Scene, World) {
         normal_map: None,
         emission: Some(emission),
         two_sided: true,
+        interior: None,
     };
     let shape = |geometry| Shape {
         label: "shape".into(),
@@ -205,8 +207,14 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
     {
         let windows: Vec<Geometry> = portal.clone().into_iter().collect();
         let (mut scene, _) = glowing(windows);
-        scene.materials[0] =
-            Material { name: "gone".into(), kind: MaterialKind::Pass, normal_map: None, emission: None, two_sided: true };
+        scene.materials[0] = Material {
+            name: "gone".into(),
+            kind: MaterialKind::Pass,
+            normal_map: None,
+            emission: None,
+            two_sided: true,
+            interior: None,
+        };
         scene.shapes.iter_mut().for_each(|shape| shape.portal = true);
         let (zenith, horizon, ground) = (Spectrum::WHITE, Spectrum::grey(0.5), Spectrum::grey(0.2));
         scene.lights = vec![Light::Sky(Sky { zenith, horizon, ground })];

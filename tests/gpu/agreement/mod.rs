@@ -7,6 +7,7 @@ mod instances;
 mod light_samples;
 mod lights;
 mod materials;
+mod media;
 mod motion;
 mod screens;
 mod shapes;

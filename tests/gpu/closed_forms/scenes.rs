@@ -26,7 +26,7 @@ pub fn camera(position: DVec3, look_at: DVec3, vertical_fov_degrees: f64) -> Cam
 /// Adds a material and gives its index.
 pub fn material(scene: &mut Scene, kind: MaterialKind, emission: Option<Emission>) -> MaterialId {
     let name = format!("material {}", scene.materials.len());
-    scene.materials.push(Material { name, kind, normal_map: None, emission, two_sided: true });
+    scene.materials.push(Material { name, kind, normal_map: None, emission, two_sided: true, interior: None });
     scene.materials.len() - 1
 }
 

@@ -192,6 +192,7 @@ fn diffuse(name: &str, reflectance: f64) -> Material {
         normal_map: None,
         emission: None,
         two_sided: true,
+        interior: None,
     }
 }
 

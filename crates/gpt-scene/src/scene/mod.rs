@@ -18,6 +18,7 @@ mod instance;
 pub mod light;
 mod light_at;
 pub mod material;
+pub mod media;
 pub mod medium;
 mod model;
 pub mod motion;
@@ -48,12 +49,13 @@ pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking,
     Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
 };
-pub use medium::Media;
+pub use media::{Filling, Media};
+pub use medium::{Medium, MediumId, Phase, PhaseKind, PhaseLobe};
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{
-    BlendMode, Emitters, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice, LightSampling,
-    MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind,
+    BlendMode, DistanceSampling, Emitters, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice,
+    LightSampling, MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind,
 };
 pub use shape::*;
 pub use sources::{ImageSource, MeshSource, Sources};

@@ -10,6 +10,7 @@ use super::import_report::ImportReport;
 use super::instance::{Group, Instances};
 use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{Material, MaterialId, MaterialKind};
+use super::medium::{Medium, MediumId};
 use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
 use super::sources::Sources;
@@ -39,6 +40,12 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     #[doc(hidden)]
     pub materials: Vec<Material>,
+    /// The media that materials enclose and that the camera may be within.
+    #[doc(hidden)]
+    pub media: Vec<Medium>,
+    /// The medium that the camera is within.
+    #[doc(hidden)]
+    pub camera_medium: Option<MediumId>,
     #[doc(hidden)]
     pub shapes: Vec<Shape>,
     /// Meshes that are stored once, and where they stand.
@@ -88,6 +95,13 @@ impl Scene {
         let is_map =
             |light: &Light| matches!(light, Light::Environment(Environment { radiance: EnvironmentRadiance::Map(_), .. }));
         is_shown(&gathering) && (is_shown(&emitting) || self.lights.iter().any(is_map))
+    }
+
+    /// Takes out what fills the space: only surfaces are left.
+    #[doc(hidden)]
+    pub fn clear_media(&mut self) {
+        self.camera_medium = None;
+        self.materials.iter_mut().for_each(|material| material.interior = None);
     }
 
     /// For each material, true if it, or one of those that it blends at any depth, is as `wanted`. The search goes from those that are up to all that are made of them, so the time does not depend on how deep blends are nested.

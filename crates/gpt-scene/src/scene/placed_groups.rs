@@ -2,7 +2,6 @@
 
 use super::check::Check;
 use super::instance::{Ball, Group, Instances, is_singular};
-use super::material::MaterialKind;
 use super::model::Scene;
 use super::shape::{Geometry, Shape};
 
@@ -85,7 +84,7 @@ impl Scene {
 
     /// No ray meets instances that are made of nothing.
     pub fn are_visible(&self, instances: &Instances) -> bool {
-        !instances.material.is_some_and(|id| matches!(self.materials[id].kind, MaterialKind::Pass))
+        !instances.material.is_some_and(|id| self.materials[id].is_nothing())
     }
 }
 
@@ -96,6 +95,7 @@ mod tests {
     use glam::DAffine3;
 
     use super::*;
+    use crate::scene::MaterialKind;
     use crate::scene::{Mesh, Transform};
 
     fn instances(places: Vec<DAffine3>) -> Instances {
@@ -121,6 +121,7 @@ mod tests {
             normal_map: None,
             emission: None,
             two_sided: true,
+            interior: None,
         };
         let scene = Scene {
             materials: vec![material],

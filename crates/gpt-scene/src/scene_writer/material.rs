@@ -32,6 +32,9 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
         None if emits => out += &line("radiance", "0"),
         None => {}
     }
+    if let Some(medium) = material.interior {
+        out += &line("interior", &writer.media.quoted(medium));
+    }
     if !material.two_sided {
         out += &line("two_sided", "false");
     }

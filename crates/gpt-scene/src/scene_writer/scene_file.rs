@@ -5,7 +5,7 @@ use std::path::Path;
 use super::needed::Needed;
 use super::{animation, material, settings, shape, texture};
 use crate::load::file::writer::{Names, SideFiles, Writer, line, text as quoted};
-use crate::load::file::{FORMAT_VERSION, write_light};
+use crate::load::file::{FORMAT_VERSION, write_light, write_medium};
 use crate::scene::Scene;
 
 /// The text of the scene file that would lie at `path`. Pictures that cannot be read are named, unless colours are to be written in their place.
@@ -16,18 +16,22 @@ pub fn scene_text(scene: &Scene, path: &Path, names_unreadable: bool) -> (String
         scene,
         textures: Names::unique(scene.textures.iter().map(|texture| texture.name.as_str()), "texture"),
         materials: Names::unique(scene.materials.iter().map(|material| material.name.as_str()), "material"),
+        media: Names::unique(scene.media.iter().map(|medium| medium.name.as_str()), "medium"),
         groups: Names::unique(scene.groups.iter().map(|group| group.name.as_str()), "group"),
         nodes: Names::unique(animation.nodes.iter().map(|node| node.name.as_str()), "node"),
         files: SideFiles::beside(path),
         names_unreadable,
     };
-    let mut text = line("version", &FORMAT_VERSION.to_string()) + "\n" + &settings::settings(scene);
+    let mut text = line("version", &FORMAT_VERSION.to_string()) + "\n" + &settings::settings(&writer);
     // The camera's table is the last.
     let of_camera = animation.camera.as_ref();
     text += &of_camera.map_or_else(String::new, |track| animation::camera(track, scene.camera.projection, &writer.nodes));
     text += &animation::animation(animation, &writer.nodes);
     for id in needed.textures() {
         text.push_str(&texture::texture(id, &mut writer));
+    }
+    for (id, medium) in scene.media.iter().enumerate() {
+        text.push_str(&format!("\n[[medium]]\n{}{}", line("name", &writer.media.quoted(id)), write_medium(medium)));
     }
     for id in needed.materials() {
         text.push_str(&material::material(id, &writer));

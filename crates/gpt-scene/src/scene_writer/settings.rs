@@ -5,11 +5,12 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use crate::choice::Choice;
-use crate::load::file::writer::{line, list, number, numbers, table, text, vector};
-use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Filter, PixelSampler, Projection, RenderSettings, Scene};
+use crate::load::file::writer::{Writer, line, list, number, numbers, table, text, vector};
+use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Filter, PixelSampler, Projection, RenderSettings};
 
 /// All four; of the settings, those that are not at their defaults.
-pub fn settings(scene: &Scene) -> String {
+pub fn settings(writer: &Writer<'_>) -> String {
+    let scene = writer.scene;
     let mut out = film(&scene.film);
     let written = render(&scene.render);
     if !written.is_empty() {
@@ -19,7 +20,11 @@ pub fn settings(scene: &Scene) -> String {
         let names = scene.layers.iter().map(|layer| text(layer.name()));
         let _ = write!(out, "\n[output]\n{}", line("aov", &list(names)));
     }
-    out + &camera(&scene.camera)
+    out += &camera(&scene.camera);
+    if let Some(medium) = scene.camera_medium {
+        out += &line("medium", &writer.media.quoted(medium));
+    }
+    out
 }
 
 fn film(film: &FilmSettings) -> String {

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 
-use crate::load::file::delta_light_examples;
+use gpt_scene::light_examples::delta_light_examples;
+
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::packed::light::LightKind;
@@ -49,7 +50,7 @@ pub fn grid(side: u32) -> PackedScene {
 }
 
 fn plain(name: &str, kind: MaterialKind) -> Material {
-    Material { name: name.into(), kind, normal_map: None, emission: None, two_sided: true }
+    Material { name: name.into(), kind, normal_map: None, emission: None, two_sided: true, interior: None }
 }
 
 fn shape(geometry: Geometry, material: usize) -> Shape {

@@ -9,7 +9,14 @@ fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
     let mut scene = Scene::default();
     scene.render.blend = mode;
     for (index, kind) in kinds.into_iter().enumerate() {
-        scene.materials.push(Material { name: index.to_string(), kind, normal_map: None, emission: None, two_sided: true });
+        scene.materials.push(Material {
+            name: index.to_string(),
+            kind,
+            normal_map: None,
+            emission: None,
+            two_sided: true,
+            interior: None,
+        });
     }
     let geometry =
         Geometry::Rectangle(Rectangle { corner: DVec3::new(-5.0, -5.0, 0.0), edge_u: DVec3::X * 10.0, edge_v: DVec3::Y * 10.0 });

@@ -319,7 +319,14 @@ mod tests {
     fn a_cylinder_without_length_is_refused() {
         let mut wrong = scene::Scene::default();
         let kind = scene::MaterialKind::Emissive;
-        wrong.materials.push(Material { name: "glow".into(), kind, normal_map: None, emission: None, two_sided: true });
+        wrong.materials.push(Material {
+            name: "glow".into(),
+            kind,
+            normal_map: None,
+            emission: None,
+            two_sided: true,
+            interior: None,
+        });
         let tube = |to| scene::Cylinder { from: DVec3::ZERO, to, radius: 1.0 };
         for (geometry, is_right) in [(tube(DVec3::Y), true), (tube(DVec3::ZERO), false)] {
             wrong.shapes = vec![Shape {

@@ -76,6 +76,10 @@ impl Element for Sphere {
         tangents(self.own_direction(normal)).map(|own| Tangents::along(to_world * own.along_u, to_world * own.along_v))
     }
 
+    fn place(&self, pose: Option<&Pose>, _: f64, _: f64) -> Option<DVec3> {
+        Some(self.moved(pose).center)
+    }
+
     /// From outside never to a point of the far side, be the sphere opaque or not: [`Element::pdf`] is 0 there.
     fn sample(
         &self,

@@ -16,7 +16,7 @@ use super::shape::{ShapeEntry, TransformEntry};
 use super::value::{Exactly, LARGEST, Located, Number, Vector, vector};
 use crate::load::error::{SceneError, show};
 use crate::load::files::MOST_MODEL_BYTES;
-use crate::scene::{Geometry, Group, Instances, Material, MaterialKind, Transform, is_singular};
+use crate::scene::{Geometry, Group, Instances, Material, Transform, is_singular};
 
 /// Meshes that are stored once, and instances of other groups. They are seen where an `[[instance]]` names the group.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -173,7 +173,7 @@ impl Resolver<'_> {
                 groups.check_count(&instances, count).map_err(|message| self.error(&entry.place, message))?;
                 named[instances.group] = true;
                 count += groups.count(&instances);
-                let all = groups.expanded(&instances, &|id| matches!(self.scene.materials[id].kind, MaterialKind::Pass));
+                let all = groups.expanded(&instances, &|id| self.scene.materials[id].is_nothing());
                 let (mut kept, mut copies) = (Vec::new(), Vec::new());
                 for part in all {
                     let check = self.scene.check_instances(&part, &textured, &none_emits, &balls);

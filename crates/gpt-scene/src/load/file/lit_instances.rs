@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::resolver::Resolver;
-use crate::scene::{Geometry, Group, Instances, MaterialId, MaterialKind, Mesh, Shape, TransformStep};
+use crate::scene::{Geometry, Group, Instances, MaterialId, Mesh, Shape, TransformStep};
 
 /// Most triangles of all copies that an entry makes.
 const MOST_TRIANGLES: usize = 20_000_000;
@@ -53,7 +53,7 @@ impl Resolver<'_> {
     fn made_of(&self, shape: &Shape, material: Option<MaterialId>) -> Shape {
         let Some(material) = material else { return shape.clone() };
         let mut made = shape.clone();
-        let replaced = |id: MaterialId| if matches!(self.scene.materials[id].kind, MaterialKind::Pass) { id } else { material };
+        let replaced = |id: MaterialId| if self.scene.materials[id].is_nothing() { id } else { material };
         made.material = replaced(shape.material);
         if let Geometry::Mesh(mesh) = &mut made.geometry
             && !mesh.face_materials.is_empty()

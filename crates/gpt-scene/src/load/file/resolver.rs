@@ -21,7 +21,9 @@ use crate::load::place::Place;
 use crate::picture_file::Hints;
 use crate::scene::animation::Deformation;
 use crate::scene::texture::{KnownRanges, range_of_texture};
-use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
+use crate::scene::{
+    Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, MediumId, Mesh, Scene, TextureId,
+};
 use crate::spectrum::Spectrum;
 
 /// Images by file and by how their values are read, so that each is decoded once.
@@ -69,6 +71,7 @@ pub struct Resolver<'a> {
     pub(super) scene: Scene,
     pub(super) texture_names: HashMap<String, TextureId>,
     pub(super) material_names: HashMap<String, MaterialId>,
+    pub(super) medium_names: HashMap<String, MediumId>,
     pub(super) node_names: HashMap<String, usize>,
     pub(super) images: ImageCache,
     /// Per texture: an image whose colour space is written to be linear.
@@ -94,6 +97,7 @@ impl<'a> Resolver<'a> {
             scene: Scene::default(),
             texture_names: HashMap::new(),
             material_names: HashMap::new(),
+            medium_names: HashMap::new(),
             node_names: HashMap::new(),
             images: Default::default(),
             linear_textures: Vec::new(),
@@ -194,6 +198,10 @@ impl<'a> Resolver<'a> {
 
     pub(super) fn material_id(&self, name: &Located<String>) -> Result<MaterialId, SceneError> {
         self.look_up(&self.material_names, name, "material")
+    }
+
+    pub(super) fn medium_id(&self, name: &Located<String>) -> Result<MediumId, SceneError> {
+        self.look_up(&self.medium_names, name, "medium")
     }
 
     /// The material or a part of it looks up a texture. Asked only once all materials of the scene file are there.

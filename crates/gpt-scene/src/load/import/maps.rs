@@ -40,5 +40,6 @@ pub fn camera_at(position: DVec3, look_at: DVec3, up: DVec3, place: &Place) -> R
         keyframes: None,
         interpolation: None,
         node: None,
+        medium: None,
     })
 }

@@ -26,6 +26,7 @@ pub use principled::{Attenuation, CoatNormalMap, Principled};
 pub use table::material_table;
 pub use table::{LobeKind, LobeSupport, MaterialId};
 
+use super::medium::MediumId;
 use super::texture::{ColorInput, TextureId};
 
 #[derive(Debug, Clone)]
@@ -38,6 +39,8 @@ pub struct Material {
     pub emission: Option<Emission>,
     /// Both sides scatter light. Else the back is black, whatever the material is made of.
     pub two_sided: bool,
+    /// The medium within closed surfaces of the material, which is behind their fronts.
+    pub interior: Option<MediumId>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +60,11 @@ impl Material {
             MaterialKind::Principled(principled) => principled.transmission != ColorInput::grey(0.0),
             _ => false,
         }
+    }
+
+    /// Surfaces of it leave no trace in the picture: light goes straight on, and no medium begins or ends there.
+    pub fn is_nothing(&self) -> bool {
+        matches!(self.kind, MaterialKind::Pass) && self.interior.is_none()
     }
 
     /// Made of other materials.

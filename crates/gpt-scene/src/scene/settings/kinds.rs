@@ -35,6 +35,16 @@ choices! {
         Balance = "balance",
     }
 
+    /// How the place is drawn where a medium scatters light.
+    pub enum DistanceSampling {
+        /// By distance and by angle, combined by multiple importance sampling.
+        Mis = "mis",
+        /// In proportion to the light that is lost along the ray.
+        Distance = "distance",
+        /// In proportion to the light that arrives along the ray from one point of a light; by distance where there is no such point.
+        Equiangular = "equiangular",
+    }
+
     /// How directions over a diffuse surface are drawn.
     pub enum HemisphereSampling {
         /// In proportion to the cosine with the normal.

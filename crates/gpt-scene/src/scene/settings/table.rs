@@ -8,8 +8,8 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 use super::kinds::{
-    BlendMode, Emitters, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler,
-    SamplerKind,
+    BlendMode, DistanceSampling, Emitters, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic,
+    PixelSampler, SamplerKind,
 };
 use super::number_or_auto::{NumberOrAuto, auto};
 use super::row::settings;
@@ -84,6 +84,14 @@ settings! {
             flag: "--heuristic",
             placeholder: "HEURISTIC",
             header: "gpt:heuristic",
+            compared: true,
+        }
+        /// How the place is drawn where a medium scatters light.
+        distance_sampling: DistanceSampling = DistanceSampling::Mis => {
+            values: Names(DistanceSampling::NAMES),
+            flag: "--distance-sampling",
+            placeholder: "STRATEGY",
+            header: "gpt:distanceSampling",
             compared: true,
         }
         /// How directions over a diffuse surface are drawn.

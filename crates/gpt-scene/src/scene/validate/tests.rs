@@ -11,7 +11,7 @@ use crate::scene::{
 use crate::spectrum::Spectrum;
 
 fn material(name: &str, kind: MaterialKind) -> Material {
-    Material { name: name.into(), kind, normal_map: None, emission: None, two_sided: true }
+    Material { name: name.into(), kind, normal_map: None, emission: None, two_sided: true, interior: None }
 }
 
 /// Gives the first material a coat with a normal map.

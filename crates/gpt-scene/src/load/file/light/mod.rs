@@ -121,14 +121,3 @@ impl Resolver<'_> {
         }
     }
 }
-
-/// By its type, every example of a light to which one direction leads from each point.
-pub fn delta_examples() -> Vec<(&'static str, Light)> {
-    let load = |(name, light)| {
-        let text = format!("camera = {{ position = [0, 0, 1], look_at = [0, 0, 0], vfov = 40 }}\n{light}");
-        // The file that an environment names is not there.
-        let scene = crate::load::load_toml_str(&text, "example", std::path::Path::new("no-folder")).ok()?;
-        Some((name, scene.lights.into_iter().find(|light| light.delta().is_some())?))
-    };
-    examples().filter_map(load).collect()
-}

@@ -73,6 +73,7 @@ pub struct CommonKeys<'a> {
     pub emission_two_sided: Option<&'a Located<bool>>,
     pub opacity: Option<&'a Located<Opacity>>,
     pub two_sided: Option<&'a Located<bool>>,
+    pub interior: Option<&'a Located<String>>,
 }
 
 /// Mutable references to the common keys.
@@ -87,6 +88,7 @@ pub struct CommonKeysMut<'a> {
     pub emission: &'a mut Option<Located<Colour<NonNegative>>>,
     pub emission_two_sided: &'a mut Option<Located<bool>>,
     pub two_sided: &'a mut Option<Located<bool>>,
+    pub interior: &'a mut Option<Located<String>>,
 }
 
 /// Declares a material's `Keys`: its own and those that every material has. Serde cannot tell unknown keys from those of a struct within.
@@ -128,6 +130,8 @@ macro_rules! material_keys {
             pub emission_two_sided: Option<$crate::load::file::value::Located<bool>>,
             /// How much of the surface there is: light goes straight through the rest, to shadows too. 1 when left out.
             pub opacity: Option<$crate::load::file::value::Located<$crate::load::file::material::opacity::Opacity>>,
+            /// A `[[medium]]` that fills closed shapes of this material: it is behind their fronts.
+            pub interior: Option<$crate::load::file::value::Located<String>>,
             $($(#[$last_doc])* pub $last: $last_type,)*
         }
 
@@ -145,6 +149,7 @@ macro_rules! material_keys {
                     emission_two_sided: self.emission_two_sided.as_ref(),
                     opacity: self.opacity.as_ref(),
                     two_sided: self.two_sided.as_ref(),
+                    interior: self.interior.as_ref(),
                 }
             }
 
@@ -160,6 +165,7 @@ macro_rules! material_keys {
                     emission: &mut self.emission,
                     emission_two_sided: &mut self.emission_two_sided,
                     two_sided: &mut self.two_sided,
+                    interior: &mut self.interior,
                 }
             }
 

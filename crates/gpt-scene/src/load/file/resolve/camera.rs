@@ -35,6 +35,7 @@ impl Resolver<'_> {
         {
             return Err(self.error(&written.place, format!("a stretch is from 1e-6 to 1e6, or that below 0, and not {stretch}")));
         }
+        self.scene.camera_medium = written.medium.as_ref().map(|name| self.medium_id(name)).transpose()?;
         self.scene.camera = Camera {
             position,
             look_at,

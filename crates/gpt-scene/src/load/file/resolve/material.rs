@@ -12,6 +12,7 @@ impl Resolver<'_> {
         self.material_names = self.register("material", written.iter().map(|entry| entry.common().name))?;
         for entry in written {
             let material = self.material(entry).and_then(|material| self.with_relief(material, entry));
+            let material = material.and_then(|material| self.with_interior(material, entry));
             let name = || entry.common().name.value.clone();
             // Something has to stand in its place, or others would have none.
             let kind = MaterialKind::Pass;
@@ -21,6 +22,7 @@ impl Resolver<'_> {
                 normal_map: None,
                 emission: None,
                 two_sided: true,
+                interior: None,
             });
             self.scene.materials.push(material);
         }
@@ -56,6 +58,7 @@ impl Resolver<'_> {
                         emission: None,
                         name: material.name.clone(),
                         two_sided: true,
+                        interior: material.interior,
                     };
                 }
                 weight => {
@@ -67,6 +70,7 @@ impl Resolver<'_> {
                         normal_map: material.normal_map.take(),
                         emission: None,
                         two_sided: true,
+                        interior: material.interior,
                     };
                     let mut whole = std::mem::replace(material, blend);
                     let name = |what: &str| format!("{} ({what})", entry.common().name.value);
@@ -77,6 +81,7 @@ impl Resolver<'_> {
                         normal_map: None,
                         emission: None,
                         two_sided: true,
+                        interior: None,
                     };
                     self.scene.materials.extend([whole, nothing]);
                     of_entry.extend([id, id]);
@@ -94,6 +99,7 @@ impl Resolver<'_> {
             normal_map: common.normal_map.map(|name| self.normal_map(name)).transpose()?,
             emission: entry.emission(self)?,
             two_sided: entry.two_sided(self)?,
+            interior: None,
         })
     }
 

@@ -3,6 +3,7 @@
 mod animation;
 mod camera;
 mod material;
+mod medium;
 mod mtl;
 mod mtl_principled;
 mod settings;
@@ -27,6 +28,10 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
     // Each part goes on past its own mistakes, so that all are told at once.
     let settings = resolver.settings(&file);
     resolver.note(settings);
+    let media = resolver.media(&file.medium);
+    if resolver.note(media).is_none() {
+        return resolver.finish();
+    }
     let camera = file.camera.as_ref().map_or(Ok(()), |camera| resolver.camera(camera));
     resolver.note(camera);
     let animation = resolver.animation(&file);

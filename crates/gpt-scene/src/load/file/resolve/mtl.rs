@@ -54,7 +54,7 @@ impl Resolver<'_> {
         if written.is_missing {
             let kind = MaterialKind::Diffuse { reflectance: ColorInput::Constant(MAGENTA) };
             let name = format!("{} (missing)", written.name);
-            return Ok(self.add(Material { name, kind, normal_map: None, emission: None, two_sided: true }));
+            return Ok(self.add(Material { name, kind, normal_map: None, emission: None, two_sided: true, interior: None }));
         }
         let mut opacity = opacity(written);
         if opacity == 0.0 && written.maps.contains_key("map_d") {
@@ -71,7 +71,8 @@ impl Resolver<'_> {
         let whole = mask.is_none() && (opacity >= 1.0 || see_through);
         // A blend's normals are its own, not those of a part.
         let own_map = normal_map.filter(|_| whole);
-        let material = Material { name: written.name.clone(), kind, normal_map: own_map, emission, two_sided: true };
+        let material =
+            Material { name: written.name.clone(), kind, normal_map: own_map, emission, two_sided: true, interior: None };
         let id = self.add(material);
         if whole {
             return Ok(id);
@@ -83,6 +84,7 @@ impl Resolver<'_> {
             normal_map: None,
             emission: None,
             two_sided: true,
+            interior: None,
         });
         let (behind, weight) = match mask {
             Some(weight) => (format!("{name} (map_d)"), weight),
@@ -94,6 +96,7 @@ impl Resolver<'_> {
             normal_map,
             emission: None,
             two_sided: true,
+            interior: None,
         }))
     }
 

@@ -153,6 +153,7 @@ impl Resolver<'_> {
             normal_map: None,
             emission: None,
             two_sided: true,
+            interior: None,
         });
         *self.unnamed_material.insert(id)
     }

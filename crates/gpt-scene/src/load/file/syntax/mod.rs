@@ -22,6 +22,7 @@ use super::instance::{GroupEntry, InstanceEntry};
 use super::keyframes::{AnimationTable, CameraKeyEntry, InterpolationName};
 use super::light::LightEntry;
 use super::material::MaterialEntry;
+use super::medium::MediumEntry;
 use super::node::NodeEntry;
 use super::shape::ShapeEntry;
 use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
@@ -50,6 +51,8 @@ pub struct SceneFile {
     pub node: Vec<Located<NodeEntry>>,
     #[serde(default)]
     pub texture: Vec<TextureEntry>,
+    #[serde(default)]
+    pub medium: Vec<MediumEntry>,
     #[serde(default)]
     pub material: Vec<MaterialEntry>,
     #[serde(default)]
@@ -132,6 +135,8 @@ pub struct CameraTable {
     pub interpolation: Option<Located<InterpolationName>>,
     /// A `[[node]]` that takes the camera along at frames.
     pub node: Option<Located<String>>,
+    /// A `[[medium]]` that the camera is within; where no surface with that `interior` is around the camera, it is everywhere.
+    pub medium: Option<Located<String>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

@@ -24,6 +24,7 @@ pub struct Writer<'s> {
     /// Names by which textures and materials are written: each is there once.
     pub textures: Names,
     pub materials: Names,
+    pub media: Names,
     pub groups: Names,
     pub nodes: Names,
     pub files: SideFiles,

@@ -1,12 +1,15 @@
-// Media that absorb light and scatter none, within the surfaces that enclose them. src/reference/medium.rs is the same in f64.
+// The media that a ray is in, within the surfaces that enclose them. src/reference/medium.rs is the same in f64.
 #import core/layout.wgsl
-#import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/surface.wgsl
 
 // The numbers of the media that a ray is in, 16 bits each, from the lower half of x up to the upper half of y: the innermost is the one that was
 // entered last. 0 stands for none. A fifth one within the others makes the outermost forgotten.
 alias MediumStack = vec2<u32>;
+
+fn around_camera() -> MediumStack {
+    return MediumStack(CAMERA_MEDIUM, 0u);
+}
 
 fn innermost(media: MediumStack) -> u32 {
     return media.x & 0xffffu;
@@ -34,17 +37,11 @@ fn leave_medium(media: MediumStack, medium: u32) -> MediumStack {
     return MediumStack(media.x, select(media.y, third, fourth == medium));
 }
 
-// Beer and Lambert's law: the share of light that is left after a distance within a medium.
-fn medium_transmittance(medium: u32, distance: f32) -> Spectrum {
-    if medium == 0u {
-        return WHITE;
-    }
-    let extinction = tables[FIRST_MEDIUM_WORD + medium - 1u].xyz;
-    return exp(-min(extinction * min(distance, FARTHEST), Spectrum(87.0)));
-}
-
 // The media on the side of a surface that `toward` points to, given those on wo's side.
 fn media_towards(surface: Surface, toward: vec3<f32>, here: MediumStack) -> MediumStack {
+    if is_within_medium(surface) {
+        return here;
+    }
     let inside = bitcast<u32>(tables[surface.material * MATERIAL_WORDS + 2u].w) >> MEDIUM_SHIFT;
     if inside == 0u || dot(toward, surface.facing_normal) > 0.0 {
         return here;
@@ -53,4 +50,9 @@ fn media_towards(surface: Surface, toward: vec3<f32>, here: MediumStack) -> Medi
         return enter_medium(here, inside);
     }
     return leave_medium(here, inside);
+}
+
+// Rays that go straight on through a surface of the material enter its medium or leave it.
+fn is_open_boundary(material: u32) -> bool {
+    return (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & OPEN_BOUNDARY) != 0u;
 }

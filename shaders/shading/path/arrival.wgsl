@@ -1,0 +1,67 @@
+// The end of a path's ray: the light that the medium on the way gives off, and the path's throughput there or at the place where the
+// medium scatters the path.
+#import core/layout.wgsl
+#import core/math.wgsl
+#import core/sampler.wgsl
+#import shading/light/place.wgsl
+#import shading/medium/free_flight.wgsl
+#import shading/medium/medium.wgsl
+#import shading/medium/stack.wgsl
+#import shading/path/record.wgsl
+#import shading/surface.wgsl
+
+struct Arrival {
+    // Light that the medium gives off, already times the throughput.
+    radiance: Spectrum,
+    throughput: Spectrum,
+    // The phase lobes of a medium that scatters the path at this distance; 0: none does.
+    phase: u32,
+    distance: f32,
+}
+
+// Light that the medium around a path's ray of this length gives off.
+fn radiance_of_medium(path: Path, ray_length: f32) -> Spectrum {
+    let number = innermost(path.media);
+    if number == 0u {
+        return BLACK;
+    }
+    return path.throughput * light_given_off(load_medium(number), ray_length);
+}
+
+// The place of a light about which the place of scattering is drawn: of the light that light sample 0 of the next vertex chooses, but at the middle of
+// the ray, or as far as light goes.
+fn pivot_of(path: Path, extinction: Spectrum, ray_length: f32, random: vec4<u32>) -> Pivot {
+    let way = min(0.5 * ray_length, 3.0 / (extinction.x + extinction.y + extinction.z));
+    let middle = path.ray.origin + way * path.ray.direction;
+    let place = light_place(middle, facing_of(medium_surface(path.ray, way)), random);
+    return Pivot(place.exists, place.point);
+}
+
+// A path whose ray of this length leads to vertex number `vertex`.
+fn arrive_through_medium(path: Path, ray_length: f32, vertex: u32) -> Arrival {
+    let number = innermost(path.media);
+    var arrival = Arrival(BLACK, path.throughput, 0u, ray_length);
+    if number == 0u {
+        return arrival;
+    }
+    let medium = load_medium(number);
+    if HAS_MEDIUM_EMISSION {
+        arrival.radiance = path.throughput * light_given_off(medium, ray_length);
+    }
+    if (medium.flags & MEDIUM_SCATTERS) == 0u {
+        arrival.throughput *= light_left(medium.extinction, ray_length);
+        return arrival;
+    }
+    var pivot = Pivot(false, vec3<f32>(0.0));
+    if HAS_LIGHTS && !HAS_BY_DISTANCE {
+        if (medium.flags & MEDIUM_IS_LIT) != 0u {
+            pivot = pivot_of(path, medium.extinction, ray_length, random_block(path.pixel, path.sample_in_pass, 2u * vertex));
+        }
+    }
+    let random = random_block(path.pixel, path.sample_in_pass, FIRST_MEDIUM_BLOCK + vertex - 1u);
+    let flight = fly(medium, path.throughput, path.ray, ray_length, pivot, random);
+    arrival.throughput *= flight.weight;
+    arrival.phase = select(0u, medium.phase, flight.is_scattered);
+    arrival.distance = flight.distance;
+    return arrival;
+}

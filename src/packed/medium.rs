@@ -1,0 +1,118 @@
+//! Media as the device reads them.
+
+use std::collections::BTreeSet;
+
+use super::error::PackError;
+use crate::scene::{Filling, MaterialId, Media, PhaseKind, PhaseLobe, Scene};
+use crate::shader::shared::shared_constants;
+
+/// Media have numbers of 16 bits, from 1.
+const MOST_MEDIA: usize = u16::MAX as usize;
+
+shared_constants!(constants {
+    /// Words of a medium in the tables.
+    const MEDIUM_WORDS: u32 = (size_of::<PackedMedium>() / 16) as u32;
+    /// Flags of a medium: it scatters light; light samples reach it.
+    const MEDIUM_SCATTERS: u32 = 1;
+    const MEDIUM_IS_LIT: u32 = 2;
+    /// Above the first of a medium's phase lobes stands how many there are.
+    const PHASE_COUNT_SHIFT: u32 = 20;
+    /// Kinds of phase lobes.
+    const PHASE_HENYEY_GREENSTEIN: u32 = 0;
+    const PHASE_RAYLEIGH: u32 = 1;
+});
+
+/// 48 bytes, three vec4 of the tables. All are per unit length.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PackedMedium {
+    pub extinction: [f32; 3],
+    pub flags: u32,
+    pub scattering: [f32; 3],
+    /// The first of its phase lobes, and above [`PHASE_COUNT_SHIFT`] their number.
+    pub phase: u32,
+    pub emission: [f32; 3],
+    pub unused: u32,
+}
+
+/// A part of a phase function, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PackedPhaseLobe {
+    pub weight: f32,
+    pub g: f32,
+    pub kind: u32,
+    pub unused: u32,
+}
+
+/// The media of a scene; none where no surface encloses one that takes or gives light, and the camera is in none.
+#[derive(Debug, Clone, Default)]
+pub struct PackedMedia {
+    /// That of number 1 is the first.
+    pub media: Vec<PackedMedium>,
+    pub phases: Vec<PackedPhaseLobe>,
+    /// The number of the medium that the camera is within; 0: none.
+    pub around_camera: u32,
+}
+
+impl PackedMedia {
+    /// Packs the media of a scene whose surfaces are of these materials.
+    ///
+    /// # Errors
+    /// [`PackError::TooManyMedia`] or [`PackError::TooManyPhases`] where their numbers do not fit.
+    pub fn new(media: &Media, of_surfaces: &BTreeSet<MaterialId>, scene: &Scene) -> Result<Self, PackError> {
+        let mut packed = Self::default();
+        let counts = |number: usize| media.filling(number).is_some_and(|filling| !filling.is_clear());
+        if scene.camera_medium.is_none() && !of_surfaces.iter().any(|&id| counts(media.behind(id))) {
+            return Ok(packed);
+        }
+        if media.fillings.len() > MOST_MEDIA {
+            return Err(PackError::TooManyMedia { found: media.fillings.len(), limit: MOST_MEDIA });
+        }
+        for filling in &media.fillings {
+            let medium = packed.medium(filling)?;
+            packed.media.push(medium);
+        }
+        packed.around_camera = media.around_camera as u32;
+        Ok(packed)
+    }
+
+    fn medium(&mut self, filling: &Filling) -> Result<PackedMedium, PackError> {
+        let (first, count) = (self.phases.len(), filling.phase.0.len());
+        if first >= 1 << PHASE_COUNT_SHIFT || count >= 1 << (32 - PHASE_COUNT_SHIFT) {
+            return Err(PackError::TooManyPhases);
+        }
+        self.phases.extend(filling.phase.0.iter().map(packed_lobe));
+        let flag = |is_set: bool, flag: u32| if is_set { flag } else { 0 };
+        Ok(PackedMedium {
+            extinction: filling.extinction.to_f32(),
+            flags: flag(filling.scatters(), MEDIUM_SCATTERS) | flag(filling.is_lit, MEDIUM_IS_LIT),
+            scattering: filling.scattering.to_f32(),
+            phase: first as u32 | (count as u32) << PHASE_COUNT_SHIFT,
+            emission: filling.emission.to_f32(),
+            unused: 0,
+        })
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.media.is_empty()
+    }
+
+    /// Some medium scatters light.
+    pub fn scatter(&self) -> bool {
+        self.media.iter().any(|medium| medium.flags & MEDIUM_SCATTERS != 0)
+    }
+
+    /// Some medium gives off light.
+    pub fn emit(&self) -> bool {
+        self.media.iter().any(|medium| medium.emission != [0.0; 3])
+    }
+}
+
+fn packed_lobe(lobe: &PhaseLobe) -> PackedPhaseLobe {
+    let (kind, g) = match lobe.kind {
+        PhaseKind::HenyeyGreenstein { g } => (PHASE_HENYEY_GREENSTEIN, g as f32),
+        PhaseKind::Rayleigh => (PHASE_RAYLEIGH, 0.0),
+    };
+    PackedPhaseLobe { weight: lobe.weight as f32, g, kind, unused: 0 }
+}
