@@ -31,6 +31,7 @@ mod summary;
 pub mod texture;
 pub mod transform;
 pub mod validate;
+pub mod volume;
 
 pub use animation::Animation;
 pub use blend_tree::{MOST_LEAVES, check_blends};
@@ -63,3 +64,4 @@ pub use texture::{
 };
 pub use transform::{Transform, TransformStep};
 pub use validate::InvalidScene;
+pub use volume::{Majorants, Outside, Volume, VolumeFilter, VoxelGrid};
