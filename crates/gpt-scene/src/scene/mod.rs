@@ -57,7 +57,7 @@ pub use settings::{
     MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind,
 };
 pub use shape::*;
-pub use sources::{ImageSource, MeshSource, Sources};
+pub use sources::{GridSource, ImageSource, MeshSource, Sources};
 pub use summary::{FEW_PRIMITIVES, SceneSummary};
 pub use texture::{
     ChannelInput, ColorInput, ImageTexture, Relief, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
