@@ -5,8 +5,8 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::PlacedGrid;
 use super::number::Value;
+use super::placed_grid::PlacedGrid;
 use crate::scene::VoxelGrid;
 use crate::scene::volume::grid::value_count;
 use crate::spectrum::Spectrum;

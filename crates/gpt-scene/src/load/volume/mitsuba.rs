@@ -4,8 +4,9 @@
 use glam::DVec3;
 
 use super::bytes::Bytes;
+use super::choice::VolumeError;
 use super::number::{Number, ValueType};
-use super::{PlacedGrid, VolumeError};
+use super::placed_grid::PlacedGrid;
 use crate::scene::volume::grid::value_count;
 use crate::scene::{Volume, VoxelGrid};
 

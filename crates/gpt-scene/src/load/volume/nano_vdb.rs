@@ -6,10 +6,12 @@ use std::io::Read as _;
 
 use flate2::read::ZlibDecoder;
 
+use super::blosc;
 use super::bytes::Bytes;
+use super::choice::{VolumeError, choose, with_cause};
 use super::dense::{ActiveBox, Dense, Node, Tile, map_of_rows, place_in_node};
 use super::number::{Number, Value, ValueType};
-use super::{PlacedGrid, VolumeError, blosc, choose, with_cause};
+use super::placed_grid::PlacedGrid;
 
 /// Begins files of segments, the first also grids within them; and grids of newer programs.
 const OLD_SIGNATURE: &[u8; 8] = b"NanoVDB0";

@@ -10,7 +10,8 @@
 
 use glam::DVec3;
 
-use super::{Majorants, Outside, Volume};
+use super::majorant::Majorants;
+use super::placed::{Outside, Volume};
 
 /// A part of a ray over which values have the same bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]

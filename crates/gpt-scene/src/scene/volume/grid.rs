@@ -14,6 +14,15 @@ pub const LARGEST_VALUE: f32 = 1e18;
 /// Most values of a grid, channels counted by themselves: 4 GiB of them.
 pub const MOST_VALUES: u64 = 1 << 30;
 
+/// The way a value is found between the middles of voxels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum VolumeFilter {
+    /// The value of the voxel that the point is in.
+    Nearest,
+    /// A blend of the eight values around the point, along x, then y, then z, each step by `a + (b - a) * share`.
+    Trilinear,
+}
+
 /// Values in a box of voxels: finite, and at least 0. [The module](super) says where they stand.
 #[derive(Clone, PartialEq)]
 pub struct VoxelGrid {

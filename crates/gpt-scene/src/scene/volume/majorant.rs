@@ -6,8 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::VolumeFilter;
-use super::grid::VoxelGrid;
+use super::grid::{VolumeFilter, VoxelGrid};
 
 /// A blend in single precision may be off by some nine rounding errors (2⁻²⁴ each), and so exceed what it blends. Bounds of cells whose values
 /// differ are wider by this share, so that no lookup exceeds them on any device; equal values are blended exactly.

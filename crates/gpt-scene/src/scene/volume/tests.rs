@@ -1,8 +1,11 @@
-use glam::{DAffine3, DMat3, DQuat, I64Vec3};
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3, I64Vec3};
 use proptest::prelude::*;
 use sha2::{Digest, Sha256};
 
 use super::*;
+use crate::spectrum::Spectrum;
 
 /// A grid whose values are scattered and partly 0.
 fn scattered(resolution: [u32; 3], channels: usize, seed: u32) -> VoxelGrid {

@@ -103,7 +103,7 @@ fn mistakes_are_told_at_their_keys() {
         ("{ file = 'smoke.vol', resolution = [1, 1, 1] }", "density.resolution", "belongs to `values`"),
         ("{ values = [1] }", "density.values", "need the key `resolution`"),
         ("{ resolution = [1, 1, 2], values = [1] }", "density.values", "it has 1 values, and not 1 × 1 × 2 = 2"),
-        ("{ resolution = [1, 0, 2], values = [1] }", "density.resolution[1]", "nonzero"),
+        ("{ resolution = [1, 0, 2], values = [1] }", "density.resolution[1]", "at least 1"),
         ("{ resolution = [1, 1, 1], values = [-1] }", "density.values[0]", "expected a number from 0 to 1e18"),
         ("{ resolution = [1, 1, 1], values = [nan] }", "density.values[0]", "expected a number from 0 to 1e18"),
         ("{ resolution = [1, 1, 1], values = [1], grid = 'a' }", "density.grid", "`file`, which is missing"),

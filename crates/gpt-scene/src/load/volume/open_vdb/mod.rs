@@ -6,20 +6,18 @@
 mod map;
 mod tree;
 mod values;
+mod version;
 
 use std::collections::HashSet;
 
 use super::bytes::Bytes;
+use super::choice::{VolumeError, choose, with_cause};
 use super::number::{Number, ValueType};
-use super::{PlacedGrid, VolumeError, choose, with_cause};
+use super::placed_grid::PlacedGrid;
 use values::Compression;
+use version::{NEWEST, NODE_MASK_COMPRESSION, SELECTIVE_COMPRESSION};
 
 const SIGNATURE: &[u8; 8] = b" BDV\0\0\0\0";
-/// The version that brought a switch for compression, and the oldest that is read; then a byte for each node about inactive values, with
-/// compression said for each grid; then Blosc; and the newest that is known.
-const SELECTIVE_COMPRESSION: u32 = 220;
-const NODE_MASK_COMPRESSION: u32 = 222;
-const NEWEST: u32 = 225;
 /// Bytes of the identifier in the header.
 const IDENTIFIER: usize = 36;
 /// Ends the type of grids whose numbers are saved in half precision.

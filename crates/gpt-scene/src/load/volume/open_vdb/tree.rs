@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::NODE_MASK_COMPRESSION;
 use super::values::{Format, is_set};
+use super::version::NODE_MASK_COMPRESSION;
 use crate::load::volume::bytes::Bytes;
 use crate::load::volume::dense::{ActiveBox, Dense, Node, Tile, place_in_node};
 use crate::load::volume::number::Value;

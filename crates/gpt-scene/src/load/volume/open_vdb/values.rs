@@ -5,7 +5,7 @@ use std::io::Read as _;
 
 use flate2::read::ZlibDecoder;
 
-use super::NODE_MASK_COMPRESSION;
+use super::version::NODE_MASK_COMPRESSION;
 use crate::load::volume::blosc;
 use crate::load::volume::bytes::Bytes;
 use crate::load::volume::number::{Number, Value, ValueType};
