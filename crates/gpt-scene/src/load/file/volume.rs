@@ -43,7 +43,7 @@ pub struct VolumeEntry {
     pub bounds: Option<Located<Exactly<Vector, 2>>>,
     /// The way values are found between voxels; "trilinear" when left out.
     pub filter: Option<VolumeFilterName>,
-    /// What there is outside of the box; "background" when left out.
+    /// The value outside of the box; "background" when left out.
     pub outside: Option<OutsideName>,
     /// The value of `outside = "background"`; when left out, the one in the file, or 0.
     pub background: Option<Rgb<NonNegative>>,
@@ -101,7 +101,7 @@ impl Resolver<'_> {
             None => placed.to_index,
         };
         if let Some(transform) = &written.transform {
-            to_index = to_index * self.transform(transform)?.to_affine().inverse();
+            to_index *= self.transform(transform)?.to_affine().inverse();
         }
         let background = written.background.as_ref().map(|colour| colour.0).or(placed.background);
         let volume = Volume {

@@ -11,7 +11,7 @@ use crate::scene::VoxelGrid;
 use crate::scene::volume::grid::value_count;
 use crate::spectrum::Spectrum;
 
-/// What a tree ends in.
+/// An end of a tree.
 pub enum Node<L> {
     Tile(Tile),
     Leaf { origin: [i64; 3], content: L },
@@ -41,10 +41,8 @@ impl Default for ActiveBox {
 impl ActiveBox {
     /// Adds a cube of voxels.
     fn add_cube(&mut self, origin: [i64; 3], side: i64) {
-        for axis in 0..3 {
-            self.low[axis] = self.low[axis].min(origin[axis]);
-            self.high[axis] = self.high[axis].max(origin[axis] + side);
-        }
+        self.low = std::array::from_fn(|axis| self.low[axis].min(origin[axis]));
+        self.high = std::array::from_fn(|axis| self.high[axis].max(origin[axis] + side));
     }
 
     /// Adds a tile that is active.

@@ -161,7 +161,7 @@ enum Leaves {
     Plain,
     /// So many bits of a share of the range of values in the leaf.
     Bits(usize),
-    /// As many bits as the leaf says.
+    /// So many bits as the leaf says.
     BitsOfLeaf,
 }
 

@@ -96,7 +96,7 @@ impl VoxelGrid {
 
     /// The value of the voxel that a point of index space is in, or that is nearest to it.
     pub fn nearest(&self, at: DVec3) -> Spectrum {
-        // What is farther away than numbers of this size is clamped all the same.
+        // A point that is farther away than numbers of this size is clamped all the same.
         self.voxel(at.floor().as_i64vec3())
     }
 
@@ -117,7 +117,7 @@ impl VoxelGrid {
     }
 
     /// Adds everything that the grid holds to a fingerprint.
-    pub fn hash(&self, hash: &mut Sha256) {
+    pub fn hash_into(&self, hash: &mut Sha256) {
         hash.update(self.resolution.map(u32::to_le_bytes).as_flattened());
         hash.update([self.channels as u8]);
         hash.update(bytemuck::cast_slice(&self.values));

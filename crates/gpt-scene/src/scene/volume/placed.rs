@@ -8,7 +8,7 @@ use super::grid::{VolumeFilter, VoxelGrid};
 use crate::scene::check::{Check, is_amount};
 use crate::spectrum::Spectrum;
 
-/// What there is outside of a grid's box.
+/// The value outside of a grid's box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outside {
     /// The value of the nearest point of the box.

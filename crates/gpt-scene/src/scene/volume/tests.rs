@@ -98,7 +98,7 @@ fn places_and_factors_are_checked() {
 fn every_value_counts_in_the_fingerprint() {
     let digest = |resolution, channels, values: &[f32]| {
         let mut hash = Sha256::new();
-        VoxelGrid::new(resolution, channels, values.to_vec()).expect("a grid").hash(&mut hash);
+        VoxelGrid::new(resolution, channels, values.to_vec()).expect("a grid").hash_into(&mut hash);
         hash.finalize()
     };
     let first = digest([3, 1, 1], 1, &[1.0, 2.0, 3.0]);
@@ -196,7 +196,7 @@ proptest! {
             cells += 1;
             let length = (segment.exit - segment.entry).min(10.0);
             for share in [1e-6, 0.1, 0.37, 0.5, 0.9, 1.0 - 1e-6] {
-                // What lies within rounding of a plane may be looked up on the other side of it.
+                // A point within rounding of a plane may be looked up on the other side of it.
                 if length < 1e-6 {
                     continue;
                 }

@@ -49,7 +49,7 @@ impl Description {
     }
 }
 
-/// What the header says.
+/// The header's words that matter.
 struct Header {
     version: u32,
     /// For all grids of old files.
@@ -138,7 +138,7 @@ fn descriptions<'b>(content: &'b [u8], bytes: &mut Bytes<'b>) -> Result<Vec<Desc
     Ok(descriptions)
 }
 
-/// What stands before a grid's tree.
+/// The part of a grid before its tree.
 struct Opening {
     compression: Compression,
     map: glam::DAffine3,

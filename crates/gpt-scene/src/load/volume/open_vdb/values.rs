@@ -35,8 +35,9 @@ pub struct Format {
     pub is_half: bool,
 }
 
-/// What the byte before a node's values says of inactive ones, which are left out but in the last case: they are the background's value; its
-/// negative; one value, which follows; either the background's value or its negative, by a mask; or one value; or two.
+/// Meanings of the byte before a node's values. Inactive values are left out but in the last case, and are the background's value; its negative;
+/// one value, which follows; or by a mask the background's value or its negative; the background's value or one that follows; one of two that
+/// follow.
 const BACKGROUND: u8 = 0;
 const NEGATIVE_BACKGROUND: u8 = 1;
 const ONE_VALUE: u8 = 2;
