@@ -17,7 +17,8 @@ fn scattered(resolution: [u32; 3], channels: usize, seed: u32) -> VoxelGrid {
         state ^= state << 5;
         state
     };
-    let values = (0..count).map(|_| if next() % 3 == 0 { 0.0 } else { (next() % 100_000) as f32 * 1e-4 }).collect();
+    // Neighbours differ by orders of magnitude, so that bounds of one cell do not hold in the next.
+    let values = (0..count).map(|_| if next() % 3 == 0 { 0.0 } else { ((next() % 100_000) as f32 * 1e-4).powi(4) }).collect();
     VoxelGrid::new(resolution, channels, values).expect("finite values")
 }
 
@@ -176,13 +177,16 @@ proptest! {
         resolution in proptest::array::uniform3(1_u32..12),
         (channels, side, seed) in (prop_oneof![Just(1_usize), Just(3)], 1_u32..6, any::<u32>()),
         (turn, shift) in (vector(-3.0..3.0), vector(-2.0..2.0)),
-        (origin, direction) in (vector(-3.0..3.0), direction()),
+        (target, direction, distance) in (vector(-0.1..1.1), direction(), 0.0..3.0),
         (is_trilinear, outside) in (any::<bool>(), prop_oneof![Just(None), Just(Some(0.0)), Just(Some(3.0))]),
         exit in prop_oneof![Just(f64::INFINITY), 0.1..10.0],
     ) {
         let filter = if is_trilinear { VolumeFilter::Trilinear } else { VolumeFilter::Nearest };
         let volume = in_unit_box(scattered(resolution, channels, seed), filter);
         let turn = DAffine3::from_mat3_translation(DMat3::from_quat(DQuat::from_scaled_axis(turn)), shift);
+        // The ray passes the target, which is in the box or near it.
+        let origin = turn.inverse().transform_point3(target - distance * direction);
+        let direction = turn.inverse().transform_vector3(direction);
         let outside = outside.map_or(Outside::Border, |value| Outside::Constant(Spectrum::grey(value)));
         let volume = Volume { to_index: volume.to_index * turn, outside, scale: 1.7, ..volume };
         let majorants = Majorants::of(&volume.grid, filter, side);
@@ -209,16 +213,26 @@ proptest! {
         let most: u32 = majorants.resolution().iter().sum::<u32>() + 2;
         prop_assert!(cells <= most, "{cells} segments");
     }
+}
 
-    /// The bounds hold in single precision too.
-    #[test]
-    fn bounds_hold_for_blends_in_single_precision(seed in any::<u32>(), shares in proptest::array::uniform3(0.0_f32..1.0)) {
+/// Blends in single precision exceed what they blend, by rounding; bounds hold all the same.
+#[test]
+fn bounds_hold_for_blends_in_single_precision() {
+    let lerp = |a: f32, b: f32, share: f32| a + (b - a) * share;
+    let mut exceeding = 0;
+    for seed in 1..2000 {
         let grid = scattered([2; 3], 1, seed);
         let [low, high] = Majorants::of(&grid, VolumeFilter::Trilinear, 2).overall();
-        let lerp = |a: f32, b: f32, share: f32| a + (b - a) * share;
         let corner = |x: i64, y: i64, z: i64| grid.voxel(I64Vec3::new(x, y, z)).r() as f32;
-        let along_x = |y, z| lerp(corner(0, y, z), corner(1, y, z), shares[0]);
-        let value = lerp(lerp(along_x(0, 0), along_x(1, 0), shares[1]), lerp(along_x(0, 1), along_x(1, 1), shares[1]), shares[2]);
-        prop_assert!((low..=high).contains(&value), "{value} of {low}..{high}");
+        for corners in 0..8_u8 {
+            // Shares next to 0 or 1, by which each corner comes close to being the result.
+            let near = |axis: u8| if corners >> axis & 1 == 1 { 1.0_f32.next_down() } else { f32::EPSILON };
+            let along_x = |y, z| lerp(corner(0, y, z), corner(1, y, z), near(0));
+            let along_y = |z| lerp(along_x(0, z), along_x(1, z), near(1));
+            let value = lerp(along_y(0), along_y(1), near(2));
+            assert!((low..=high).contains(&value), "{value} of {low}..{high}");
+            exceeding += u32::from(value > grid.range()[1]);
+        }
     }
+    assert!(exceeding > 0, "the control: bounds without a margin do not hold");
 }
