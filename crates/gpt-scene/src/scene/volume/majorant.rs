@@ -8,8 +8,9 @@ use rayon::prelude::*;
 
 use super::grid::{VolumeFilter, VoxelGrid};
 
-/// A blend in single precision may be off by some nine rounding errors (2⁻²⁴ each), and so exceed what it blends. Bounds of cells whose values
-/// differ are wider by this share, so that no lookup exceeds them on any device; equal values are blended exactly.
+/// A blend in single precision may be off by some nine rounding errors (2⁻²⁴ each) of the largest value that it blends, and so be outside of these
+/// values. Bounds of cells whose values differ are wider by this share of the largest one, so that no lookup is outside of them on any device;
+/// equal values are blended exactly.
 const ROUNDING: f64 = 1.0 / (1 << 20) as f64;
 
 /// The smallest and the largest value in each coarse cell of a grid, before they are scaled.
@@ -94,8 +95,8 @@ fn bounds_of_cell(grid: &VoxelGrid, filter: VolumeFilter, side: u32, cell: [u32;
     if low == high || filter == VolumeFilter::Nearest {
         return [low, high];
     }
-    let lower = (f64::from(low) * (1.0 - ROUNDING)) as f32;
-    let higher = (f64::from(high) * (1.0 + ROUNDING)) as f32;
-    // Numbers next to 0 have no share that they could be off by.
+    let margin = f64::from(high) * ROUNDING;
+    let (lower, higher) = ((f64::from(low) - margin) as f32, (f64::from(high) + margin) as f32);
+    // Next to 0 the margin may round to nothing.
     [lower.min(low.next_down()).max(0.0), higher.max(high.next_up())]
 }
