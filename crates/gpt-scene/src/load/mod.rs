@@ -6,6 +6,7 @@
 //!   no lat-long map as it stands.
 //! - `mitsuba`, `gltf`: scenes of other programs, which become entries of scene files by means of `import`; `import_file` tells them apart.
 //! - `scene_file`: a scene file with what it imports.
+//! - `volume`: grids of media, from files of OpenVDB, NanoVDB and Mitsuba.
 //! - `place`: where mistakes are reported.
 //! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
 //! - `builtin_scenes`: scenes that are part of the program, among them `examples`, made of all examples; `builtin`: the files they name.
@@ -46,6 +47,7 @@ pub mod source;
 mod spelling;
 mod toml_text;
 mod view;
+pub mod volume;
 
 pub use crate::file_log::FileLog;
 pub use access::LoadOptions;

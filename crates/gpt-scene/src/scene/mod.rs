@@ -32,6 +32,7 @@ mod summary;
 pub mod texture;
 pub mod transform;
 pub mod validate;
+pub mod volume;
 
 pub use animation::Animation;
 pub use blend_tree::{MOST_LEAVES, check_blends};
@@ -58,10 +59,11 @@ pub use settings::{
     LightSampling, MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind,
 };
 pub use shape::*;
-pub use sources::{ImageSource, MeshSource, Sources};
+pub use sources::{GridSource, ImageSource, MeshSource, Sources};
 pub use summary::{FEW_PRIMITIVES, SceneSummary};
 pub use texture::{
     ChannelInput, ColorInput, ImageTexture, Relief, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
 pub use transform::{Transform, TransformStep};
 pub use validate::InvalidScene;
+pub use volume::{Majorants, Outside, Volume, VolumeFilter, VoxelGrid};

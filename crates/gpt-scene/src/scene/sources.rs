@@ -4,14 +4,18 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Weak};
 
+use glam::DAffine3;
+
 use super::image::{ColorSpace, ImageData};
 use super::shape::Mesh;
+use super::volume::VoxelGrid;
 
-/// The files that a scene's meshes and pictures were read from. What was changed since, or made by a program, has none.
+/// The files that a scene's meshes, pictures and grids were read from. What was changed since, or made by a program, has none.
 #[derive(Debug, Clone, Default)]
 pub struct Sources {
     images: HashMap<usize, (Weak<ImageData>, ImageSource)>,
     meshes: HashMap<usize, (Weak<Mesh>, MeshSource)>,
+    grids: HashMap<usize, (Weak<VoxelGrid>, GridSource)>,
     /// Pictures that cannot be read, by the names of the textures that show a colour in their place.
     unreadable: HashMap<String, ImageSource>,
 }
@@ -39,6 +43,16 @@ pub struct MeshSource {
     pub replaced: Vec<(String, String)>,
 }
 
+/// How a grid of values was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GridSource {
+    pub path: PathBuf,
+    /// The name that was asked for.
+    pub grid: Option<String>,
+    /// From the file's space to index space.
+    pub to_index: DAffine3,
+}
+
 // Objects are known by their address, and weakly remembered, so that no other object can get the address.
 impl Sources {
     pub fn add_image(&mut self, image: &Arc<ImageData>, source: ImageSource) {
@@ -51,6 +65,10 @@ impl Sources {
 
     pub fn add_mesh(&mut self, mesh: &Arc<Mesh>, source: MeshSource) {
         self.meshes.insert(address(mesh), (Arc::downgrade(mesh), source));
+    }
+
+    pub fn add_grid(&mut self, grid: &Arc<VoxelGrid>, source: GridSource) {
+        self.grids.insert(address(grid), (Arc::downgrade(grid), source));
     }
 
     /// The file of a picture.
@@ -68,11 +86,17 @@ impl Sources {
         self.meshes.get(&address(mesh)).map(|(_, source)| source)
     }
 
+    /// The file of a grid of values.
+    pub fn grid(&self, grid: &Arc<VoxelGrid>) -> Option<&GridSource> {
+        self.grids.get(&address(grid)).map(|(_, source)| source)
+    }
+
     /// Every file that something of the scene came from.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let images = self.images.values().filter(|(_, source)| source.embedded.is_none());
         let images = images.map(|(_, source)| source.path.as_path());
-        images.chain(self.meshes.values().map(|(_, source)| source.path.as_path()))
+        let meshes = self.meshes.values().map(|(_, source)| source.path.as_path());
+        images.chain(meshes).chain(self.grids.values().map(|(_, source)| source.path.as_path()))
     }
 }
 

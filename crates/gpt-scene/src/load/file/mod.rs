@@ -24,6 +24,9 @@ pub(super) mod shape;
 mod suggestion;
 pub(super) mod syntax;
 pub(super) mod value;
+// Entries of media name it.
+#[cfg_attr(not(test), allow(dead_code))]
+pub(crate) mod volume;
 pub(crate) mod writer;
 
 pub(crate) use document::FORMAT_VERSION;

@@ -18,6 +18,7 @@ use crate::load::files::Files;
 use crate::load::image_file::{EmbeddedFile, Picture, PictureSource, Pictures};
 use crate::load::model::Substitute;
 use crate::load::place::Place;
+use crate::load::volume::PlacedGrid;
 use crate::picture_file::Hints;
 use crate::scene::animation::Deformation;
 use crate::scene::texture::{KnownRanges, range_of_texture};
@@ -52,6 +53,9 @@ impl From<Picture> for CachedImage {
 /// that are replaced.
 pub type MeshFileKey = (PathBuf, Option<bool>, Option<Vec<(String, MaterialId)>>);
 
+/// Key of a grid that has been read: its file, and the name that was asked for.
+pub type GridKey = (PathBuf, Option<String>);
+
 /// A mesh and its material, or that of its first face where faces have their own.
 #[derive(Clone)]
 pub struct LoadedMesh {
@@ -77,6 +81,7 @@ pub struct Resolver<'a> {
     /// Per texture: an image whose colour space is written to be linear.
     pub(super) linear_textures: Vec<bool>,
     pub(super) mesh_files: HashMap<MeshFileKey, LoadedMesh>,
+    pub(super) grids: HashMap<GridKey, PlacedGrid>,
     /// True, for each material asked for so far, where it or a part of it looks up a texture.
     textured: Vec<bool>,
     ranges: RefCell<KnownRanges>,
@@ -102,6 +107,7 @@ impl<'a> Resolver<'a> {
             images: Default::default(),
             linear_textures: Vec::new(),
             mesh_files: HashMap::new(),
+            grids: HashMap::new(),
             textured: Vec::new(),
             ranges: RefCell::default(),
             deformation: None,

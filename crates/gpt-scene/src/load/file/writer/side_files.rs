@@ -14,8 +14,8 @@ pub struct SideFiles {
     /// The folder of the files, within that.
     subfolder: String,
     files: Vec<(PathBuf, Vec<u8>)>,
-    /// How the scene file names pictures, by their addresses.
-    pictures: HashMap<usize, String>,
+    /// How the scene file names pictures and grids, by their addresses.
+    shared: HashMap<usize, String>,
 }
 
 impl SideFiles {
@@ -23,7 +23,7 @@ impl SideFiles {
         let folder = scene_file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let stem = scene_file.file_stem().unwrap_or_default().to_string_lossy();
         let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
-        Self { folder, subfolder: format!("{stem}.files"), files: Vec::new(), pictures: HashMap::new() }
+        Self { folder, subfolder: format!("{stem}.files"), files: Vec::new(), shared: HashMap::new() }
     }
 
     /// Adds a file; how the scene file names it, in quotes.
@@ -40,11 +40,16 @@ impl SideFiles {
 
     /// Adds the picture at an address, once; how the scene file names it, in quotes.
     pub fn add_picture(&mut self, address: usize, ending: &str, content: impl FnOnce() -> Vec<u8>) -> String {
-        if let Some(name) = self.pictures.get(&address) {
+        self.add_once("picture", address, ending, content)
+    }
+
+    /// Adds what is at an address, once, under the name of its kind and a number; how the scene file names it, in quotes.
+    pub fn add_once(&mut self, kind: &str, address: usize, ending: &str, content: impl FnOnce() -> Vec<u8>) -> String {
+        if let Some(name) = self.shared.get(&address) {
             return name.clone();
         }
-        let name = self.add(&format!("picture-{}.{ending}", self.len() + 1), content());
-        self.pictures.insert(address, name.clone());
+        let name = self.add(&format!("{kind}-{}.{ending}", self.len() + 1), content());
+        self.shared.insert(address, name.clone());
         name
     }
 
