@@ -1,5 +1,7 @@
 //! Light that is scattered once, in homogeneous media. Coefficients are of one channel; a coloured medium is three of them.
 
+use std::f64::consts::PI;
+
 use super::phase::Phase;
 use super::quadrature::{integrate, integrate_to_infinity};
 
@@ -34,6 +36,31 @@ pub fn of_point_light(medium: &Medium, light: [f64; 3], intensity: f64, directio
     };
     let [from, to] = [-foot / height, (length - foot) / height].map(f64::atan);
     medium.scattering * intensity / height * integrate(&at, from, to, tolerance)
+}
+
+/// The radiance of a glowing ball's light, scattered once by a medium that scatters evenly; the other arguments are those of [`of_point_light`]. The
+/// ray stays clear of the ball. The light at a place comes from a cone, and travels from the near side of the ball.
+pub fn of_ball_of_light(medium: &Medium, center: [f64; 3], radius: f64, radiance: f64, direction: [f64; 3], length: f64) -> f64 {
+    assert_eq!(medium.phase, Phase::Isotropic, "the phase function is taken out of the integral over the cone");
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let foot = dot(center, direction);
+    let height = (dot(center, center) - foot * foot).sqrt();
+    let at = |angle: f64| {
+        let (place, distance) = (foot + height * angle.tan(), height / angle.cos());
+        let ratio = radius / distance;
+        let widest = (1.0 - ratio * ratio).sqrt();
+        // The cosine is 1 − (1 − widest) x², which keeps the root of the ball's near side smooth where the cone grazes it.
+        let over_cone = |x: f64| {
+            let below_one = (1.0 - widest) * (1.0 - x * x);
+            let cosine = widest + below_one;
+            let chord = distance * (cosine * cosine - widest * widest).max(0.0).sqrt();
+            (-medium.extinction * (distance * cosine - chord)).exp() * 2.0 * x * (1.0 - widest)
+        };
+        let fluence = 2.0 * PI * radiance * integrate(&over_cone, 0.0, 1.0, 1e-12);
+        (-medium.extinction * place).exp() * 0.25 / PI * fluence * distance * distance
+    };
+    let [from, to] = [-foot / height, (length - foot) / height].map(f64::atan);
+    medium.scattering / height * integrate(&at, from, to, 1e-10)
 }
 
 /// The same by integration over the distance along the ray, without a change of variable.

@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::phase::phases;
 use crate::common::media::airlight::{
-    Medium, of_point_light, of_point_light_by_distance, reflected_by_half_space, reflected_by_layer, transmitted_by_layer,
+    Medium, of_ball_of_light, of_point_light, of_point_light_by_distance, reflected_by_half_space, reflected_by_layer,
+    transmitted_by_layer,
 };
 use crate::common::media::phase::Phase;
 use crate::common::media::quadrature::{gauss_legendre, integrate};
@@ -77,4 +78,38 @@ fn layers_are_integrals_over_their_depth() {
             assert!((reflected_by_half_space(&medium, 3.0, cosines, turned) - deep).abs() < 1e-14);
         }
     }
+}
+
+/// A ball that is small beside its distance is a point of the intensity L π r²; and in thin air a place sees the solid angle of a large one.
+#[test]
+fn balls_of_light_are_points_from_afar() {
+    let medium = medium(Phase::Isotropic);
+    let (center, direction) = ([1.0, -1.0, -2.0], [0.0, 0.0, -1.0]);
+    let point = of_point_light(&medium, center, PI * 1e-4, direction, 2.5, 1e-14);
+    let ball = of_ball_of_light(&medium, center, 1e-2, 1.0, direction, 2.5);
+    // The near side of the ball is nearer by up to its radius.
+    assert!((ball / point - 1.0).abs() < 6e-3 && ball > point, "{ball} is not {point}");
+    let thin = Medium { scattering: 1e-9, extinction: 1e-9, phase: Phase::Isotropic };
+    let ball = of_ball_of_light(&thin, center, 1.2, 3.0, direction, 2.5);
+    let share = |place: f64| 0.5 * (1.0 - (1.0 - 1.44 / (2.0 + (place - 2.0) * (place - 2.0))).sqrt());
+    let expected = 1e-9 * 3.0 * integrate(&share, 0.0, 2.5, 1e-13);
+    assert!((ball / expected - 1.0).abs() < 1e-8, "{ball} is not {expected}");
+    // Between the two: its surface in parts, each of which is a point that shines by the cosine.
+    let (radius, rule) = (0.7, gauss_legendre(40, 0.0, 1.0));
+    let mut sum = 0.0;
+    for &(place, weight) in &rule {
+        let place = 2.5 * place;
+        let distance = (2.0 + (place - 2.0) * (place - 2.0)).sqrt();
+        // Of the ball's side that is seen: cosines at its centre from the horizon to 1.
+        for &(part, share) in &rule {
+            let horizon = radius / distance;
+            let cosine = horizon + (1.0 - horizon) * part;
+            let away = (distance * distance + radius * radius - 2.0 * distance * radius * cosine).sqrt();
+            let facing = (distance * cosine - radius) / away;
+            let area = TAU * radius * radius * (1.0 - horizon) * share;
+            sum += 2.5 * weight * (-0.5 * (place + away)).exp() * 0.3 * 0.25 / PI * facing * area / (away * away);
+        }
+    }
+    let ball = of_ball_of_light(&medium, center, radius, 1.0, direction, 2.5);
+    assert!((ball / sum - 1.0).abs() < 1e-8, "{ball} is not {sum}");
 }
