@@ -4,6 +4,7 @@
 pub mod device;
 pub mod effort;
 pub mod files;
+pub mod media;
 pub mod picture;
 pub mod pixel_bits;
 pub mod ray_queries;

@@ -20,6 +20,7 @@ mod instances;
 mod learn;
 mod light_strategies;
 mod many_parts;
+mod media;
 mod models;
 mod picture_files;
 mod picture_test;

@@ -15,6 +15,7 @@ mod estimators;
 mod film;
 mod guiding;
 mod layers;
+mod media;
 mod motion;
 mod opacity;
 mod progressive;
