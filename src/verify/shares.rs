@@ -55,6 +55,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("wardrobe", MeasuredShare { matching: 175_075, paths: 176_128 }),
     ("workshop", MeasuredShare { matching: 167_001, paths: 167_936 }),
     ("vitrine", MeasuredShare { matching: 175_226, paths: 176_128 }),
+    ("mist", MeasuredShare { matching: 175_652, paths: 176_128 }),
     ("model-town", MeasuredShare { matching: 196_519, paths: 196_608 }),
     ("furnace-lambert", MeasuredShare { matching: 65_536, paths: 65_536 }),
     ("furnace-box", MeasuredShare { matching: 65_451, paths: 65_536 }),

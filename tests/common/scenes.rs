@@ -6,7 +6,7 @@ pub const ENOUGH: [&str; 4] = ["examples", "terrace", "bazaar", "arbour"];
 
 /// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
 /// `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 33] = [
+pub const ELSEWHERE: [&str; 36] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
@@ -21,9 +21,11 @@ pub const ELSEWHERE: [&str; 33] = [
     "LIGHTS_BY_PICTURE",
     "LIGHT_CELLS",
     "LIGHT_TEXTURES",
+    "MEDIUM_EMISSION",
     "NORMAL_MIRRORING",
     "NORMAL_SCALES",
     "NORMAL_SHADOWING",
+    "OPEN_BOUNDARIES",
     "ORTHOGRAPHIC",
     "PERLIN",
     "PICK",
@@ -31,6 +33,7 @@ pub const ELSEWHERE: [&str; 33] = [
     "PIXEL_HASHED",
     "PIXEL_ROTATION",
     "PORTALS",
+    "SCATTERING",
     "SECOND_UVS",
     "SPHERE_LIGHTS_BY_PICTURE",
     "SPHERE_LIGHTS_BY_POINT",

@@ -162,6 +162,7 @@ fn volumes_are_written_and_read_again() {
             scene: &scene,
             textures: names(),
             materials: names(),
+            media: names(),
             groups: names(),
             nodes: names(),
             files,
