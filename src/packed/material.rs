@@ -35,6 +35,7 @@ shared_constants!(flags {
     const ANISOTROPIC: u32 = material::ANISOTROPIC << FORM_SHIFT;
     const THIN_WALL: u32 = material::THIN_WALL << FORM_SHIFT;
     const COMPENSATED: u32 = material::COMPENSATED << FORM_SHIFT;
+    const DIFFUSE_TRANSMITS: u32 = material::DIFFUSE_TRANSMITS << FORM_SHIFT;
     const DIRECTED: u32 = material::DIRECTED << FORM_SHIFT;
     const COAT_NORMAL_MAP: u32 = material::COAT_NORMAL_MAP << FORM_SHIFT;
     /// Rows of a table of albedos, by roughness, and its columns, by cosine.

@@ -247,6 +247,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("PLANT_MIS").requires(&["ESTIMATOR_MIS", "LIGHTS"]).debug(),
     switch("PORTALS").requires(&["ENVIRONMENT_SAMPLED"]),
     switch("PRIMITIVE_CHUNKS").excludes(&["UNIFORM_PRIMITIVES"]),
+    switch("PRINCIPLED_DIFFUSE_TRANSMISSION").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
     switch("PRINCIPLED_TRANSMISSION"),
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
     // Acceleration structures hold a scene at rest.

@@ -8,6 +8,7 @@ mod conductor;
 mod cosine_power;
 mod dielectric;
 mod diffuse;
+mod diffuse_transmission;
 mod fresnel;
 mod glass;
 mod glossy;

@@ -253,7 +253,7 @@ objects! {
         object("sheenRoughnessTexture", &TEXTURE_INFO),
     ];
     ANISOTROPY [read("anisotropyStrength"), read("anisotropyRotation"), object("anisotropyTexture", &TEXTURE_INFO)];
-    // These three are reported as a whole where they would show.
+    // These two are reported as a whole where they would show.
     IRIDESCENCE [
         read("iridescenceFactor"),
         aside("iridescenceTexture"),
@@ -265,9 +265,9 @@ objects! {
     DISPERSION [read("dispersion")];
     DIFFUSE_TRANSMISSION [
         read("diffuseTransmissionFactor"),
-        aside("diffuseTransmissionTexture"),
-        aside("diffuseTransmissionColorFactor"),
-        aside("diffuseTransmissionColorTexture"),
+        object("diffuseTransmissionTexture", &TEXTURE_INFO),
+        read("diffuseTransmissionColorFactor"),
+        object("diffuseTransmissionColorTexture", &TEXTURE_INFO),
     ];
     SPECULAR_GLOSSINESS [
         read("diffuseFactor"),

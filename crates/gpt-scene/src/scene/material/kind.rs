@@ -20,6 +20,9 @@ pub enum MaterialKind {
     Glossy { reflectance: ColorInput, exponent: ColorInput },
     /// Modified Phong (Lafortune and Willems 1994).
     Phong { diffuse: ColorInput, specular: ColorInput, exponent: ColorInput },
+    /// A sheet that Lambert's law holds for on both sides: f = ρ/π for light from the side that is seen, τ/π for light from the other one.
+    /// Where ρ + τ is more than 1, both are divided by it.
+    DiffuseTransmission { reflectance: ColorInput, transmittance: ColorInput },
     /// Smooth dielectric with exact Fresnel equations. `ior` is inside over outside, the outside being where the normal points; a `thin` one
     /// is a plate of both boundaries, which light crosses without changing its direction.
     Glass { ior: f64, reflectance: ColorInput, transmittance: ColorInput, thin: bool },
@@ -92,6 +95,8 @@ pub const SHEEN: u32 = 512;
 pub const COAT_NORMAL_MAP: u32 = 2048;
 /// The direction in which microfacets are wider comes from a texture.
 pub const DIRECTED: u32 = 4096;
+/// The diffuse base lets light through.
+pub const DIFFUSE_TRANSMITS: u32 = 8192;
 /// All of these.
 pub const FORMS: u32 = COMPLEX_FRESNEL
     | BECKMANN
@@ -104,7 +109,8 @@ pub const FORMS: u32 = COMPLEX_FRESNEL
     | COMPENSATED
     | SHEEN
     | COAT_NORMAL_MAP
-    | DIRECTED;
+    | DIRECTED
+    | DIFFUSE_TRANSMITS;
 
 /// Entries that the transmittance of rough plastic takes.
 const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
@@ -146,6 +152,9 @@ impl MaterialKind {
                 roughness: Some(exponent),
                 ..LobeParameters::new(LobeKind::Phong, diffuse)
             },
+            Self::DiffuseTransmission { reflectance, transmittance } => {
+                LobeParameters { color1: Some(transmittance), ..LobeParameters::new(LobeKind::DiffuseTransmission, reflectance) }
+            }
             Self::Glass { ior, reflectance, transmittance, thin } => LobeParameters {
                 color1: Some(transmittance),
                 ior: Some(ior),
@@ -218,6 +227,7 @@ pub const COAT_TEXEL_PARAMETER: usize = place!(Principled.coat_texel);
 /// The number of further parameters of the principled lobe in a form.
 fn further_of_principled(form: u32) -> usize {
     let last = match form {
+        form if form & DIFFUSE_TRANSMITS != 0 => place!(Principled.diffuse_transmission_color),
         form if form & DIRECTED != 0 => place!(Principled.direction_texel),
         form if form & COAT_NORMAL_MAP != 0 => place!(Principled.coat_scale),
         form if form & SHEEN != 0 => place!(Principled.sheen_roughness),
@@ -238,7 +248,8 @@ impl Principled {
             | if self.energy_compensation { COMPENSATED } else { 0 }
             | if self.sheen_color == zero { 0 } else { SHEEN }
             | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 }
-            | if direction.is_some() { DIRECTED } else { 0 };
+            | if direction.is_some() { DIRECTED } else { 0 }
+            | if self.diffuse_transmission == zero { 0 } else { DIFFUSE_TRANSMITS };
         let mut further = parameters::Principled {
             metallic: self.metallic,
             specular: self.specular,
@@ -252,6 +263,8 @@ impl Principled {
             coat_texel: self.coat_normal_map.map_or(zero, |map| ColorInput::Texture(map.texture)),
             coat_scale: self.coat_normal_map.map_or(zero, |map| ColorInput::grey(map.scale)),
             direction_texel: direction.map_or(zero, ColorInput::Texture),
+            diffuse_transmission: self.diffuse_transmission,
+            diffuse_transmission_color: self.diffuse_transmission_color,
         }
         .list();
         further.truncate(further_of_principled(form));

@@ -14,9 +14,9 @@ pub use albedo::{
 };
 pub use blend_weight::BlendWeight;
 pub use kind::{
-    ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel, DIRECTED,
-    FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL,
-    TRANSMITS,
+    ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
+    DIFFUSE_TRANSMITS, DIRECTED, FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND,
+    SQUARED_ACROSS, THIN_WALL, TRANSMITS,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use parameters::{Parameter, ParameterType};

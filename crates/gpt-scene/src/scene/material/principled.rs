@@ -29,6 +29,9 @@ pub struct Principled {
     pub specular_color: ColorInput,
     /// Share of the dielectric's base that lets light through instead of scattering it back.
     pub transmission: ColorInput,
+    /// Share of the diffuse base that sends light on to the other side instead of back, and the colour by which it does.
+    pub diffuse_transmission: ColorInput,
+    pub diffuse_transmission_color: ColorInput,
     /// True for a wall without thickness, which lets light through without bending it.
     pub thin: bool,
     /// The attenuation behind the surface; None where nothing takes light.

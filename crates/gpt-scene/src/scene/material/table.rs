@@ -22,6 +22,7 @@ macro_rules! material_table {
             Mirror mirror { Mirror mirror MIRROR Delta }
             Glossy glossy { Glossy glossy GLOSSY Hemisphere }
             Phong phong { Phong phong PHONG Hemisphere }
+            DiffuseTransmission diffuse_transmission { DiffuseTransmission diffuse_transmission DIFFUSE_TRANSMISSION Sphere }
             Glass glass { Glass glass GLASS Delta ThinGlass thin_glass THIN_GLASS Delta }
             RoughGlass rough_glass {
                 RoughGlass rough_glass ROUGH_GLASS Sphere [width_across: Scalar = "lobe.roughness"]
@@ -43,7 +44,8 @@ macro_rules! material_table {
                     anisotropy: Scalar, rotation: Vector,
                     sheen_color: Color = "BLACK", sheen_roughness: Scalar = "0.0",
                     coat_texel: Vector = "vec3<f32>(0.0)", coat_scale: SignedScalar = "0.0",
-                    direction_texel: Vector = "vec3<f32>(0.0)"
+                    direction_texel: Vector = "vec3<f32>(0.0)",
+                    diffuse_transmission: Scalar = "0.0", diffuse_transmission_color: Color = "BLACK"
                 ]
             }
             Emissive emissive {}

@@ -4,6 +4,7 @@ pub mod blend;
 pub mod blend_weight;
 pub mod conductor;
 pub mod diffuse;
+pub mod diffuse_transmission;
 pub mod emissive;
 pub mod glass;
 pub mod glossy;

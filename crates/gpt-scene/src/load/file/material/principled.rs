@@ -14,7 +14,7 @@ use crate::spectrum::Spectrum;
 
 material_keys! {
     /// The metallic-roughness material of glTF 2.0 (Appendix B) with its extensions for the index of refraction, specular, transmission,
-    /// volume, clearcoat, sheen and anisotropy.
+    /// volume, clearcoat, sheen, anisotropy and diffuse transmission.
     #[schemars(extend("allOf" = [
         { "dependentRequired": {
             "anisotropy_rotation": ["anisotropy"],
@@ -24,9 +24,14 @@ material_keys! {
             "coat_normal_map": ["clearcoat"],
             "coat_normal_scale": ["coat_normal_map"],
             "sheen_roughness": ["sheen_color"],
-            "attenuation_color": ["attenuation_distance", "transmission"],
+            "attenuation_color": ["attenuation_distance"],
             "attenuation_distance": ["attenuation_color"],
+            "diffuse_transmission_color": ["diffuse_transmission"],
         } },
+        {
+            "if": { "required": ["attenuation_color"] },
+            "then": { "anyOf": [{ "required": ["transmission"] }, { "required": ["diffuse_transmission"] }] },
+        },
         { "not": { "required": ["attenuation_color", "thin"], "properties": { "thin": { "const": true } } } },
     ]))]
     {
@@ -44,6 +49,10 @@ material_keys! {
         specular_color: Option<Colour<NonNegative>>,
         /// Share of light that goes through the dielectric's base instead of being scattered back; 0 when left out.
         transmission: Option<Scalar<Fraction>>,
+        /// Share of the light that the diffuse base would scatter back and scatters on instead, behind the surface; 0 when left out.
+        diffuse_transmission: Option<Box<Scalar<Fraction>>>,
+        /// The colour by which it does, 1 when left out.
+        diffuse_transmission_color: Option<Located<Colour<Fraction>>>,
         /// Light goes through a wall without thickness, which does not bend it.
         thin: Option<Located<bool>>,
         /// Share of light left after `attenuation_distance` within the volume that the surface encloses.
@@ -90,6 +99,8 @@ impl MaterialKeys for Keys {
         "base_color = [0.9, 0.6, 0.3]\nroughness = 0.8\nenergy_compensation = true",
         "base_color = [0.5, 0.9, 0.6]\nmetallic = 0.4\nroughness = 0.9\nanisotropy = 0.3\nmasking = \"height_correlated\"\nenergy_compensation = true\nsheen_color = 0.5\nsheen_roughness = 1",
         "base_color = [0.9, 0.9, 1]\nmetallic = 0\nroughness = 0.2\nior = 1.3\ntransmission = 1\nattenuation_color = [0.9, 0.4, 0.1]\nattenuation_distance = 0.5",
+        "base_color = [0.7, 0.5, 0.2]\nmetallic = 0.1\nroughness = 0.4\ndiffuse_transmission = 0.6\ndiffuse_transmission_color = [0.3, 0.8, 0.2]",
+        "base_color = [0.7, 0.5, 0.9]\nmetallic = 0\nroughness = 0.6\nior = 1.3\ntransmission = 0.4\ndiffuse_transmission = 0.7\ndiffuse_transmission_color = [0.9, 0.6, 0.3]\nsheen_color = 0.3\nsheen_roughness = 0.5",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -109,6 +120,9 @@ impl MaterialKeys for Keys {
         let clearcoat_roughness = self.clearcoat_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let sheen_roughness = self.sheen_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let sheen_color = self.sheen_color.as_ref().map(|written| resolver.colour(written)).transpose()?;
+        let diffuse_transmission = self.diffuse_transmission.as_ref().map(|written| resolver.scalar(written)).transpose()?;
+        let diffuse_transmission_color =
+            self.diffuse_transmission_color.as_ref().map(|written| resolver.colour(&written.value)).transpose()?;
         let attenuation = self.attenuation_color.as_ref().zip(self.attenuation_distance.as_ref());
         Ok(MaterialKind::Principled(Box::new(Principled {
             base_color: resolver.colour_or_white(&self.base_color)?,
@@ -118,6 +132,8 @@ impl MaterialKeys for Keys {
             specular: scalar(&self.specular, 1.0)?,
             specular_color: resolver.colour_or_white(&self.specular_color)?,
             transmission: scalar(&self.transmission, 0.0)?,
+            diffuse_transmission: diffuse_transmission.unwrap_or(ColorInput::grey(0.0)),
+            diffuse_transmission_color: diffuse_transmission_color.unwrap_or(ColorInput::grey(1.0)),
             thin: self.thin.as_ref().is_some_and(|thin| thin.value),
             attenuation: attenuation
                 .map(|(color, distance)| Attenuation { color: color.value.0, distance: distance.value.0 })
@@ -151,6 +167,10 @@ impl MaterialKeys for Keys {
             out += &line("coat_normal_map", &writer.textures.quoted(texture));
             out += &line("coat_normal_scale", &number(scale));
         }
+        if principled.diffuse_transmission != ColorInput::grey(0.0) {
+            out += &writer.input("diffuse_transmission", &principled.diffuse_transmission);
+            out += &writer.input("diffuse_transmission_color", &principled.diffuse_transmission_color);
+        }
         if let Some(Attenuation { color, distance }) = principled.attenuation {
             out += &line("attenuation_color", &writer::colour(color));
             out += &line("attenuation_distance", &number(distance));
@@ -181,6 +201,7 @@ impl Keys {
         {
             return Err(resolver.error(&attenuation.place, "a `thin` wall encloses nothing that could take light"));
         }
+        let lets_light_in = self.transmission.is_some() || self.diffuse_transmission.is_some();
         let rows = [
             (span(&self.anisotropy_rotation), "anisotropy_rotation", self.anisotropy.is_some(), "anisotropy"),
             (span(&self.anisotropy_direction), "anisotropy_direction", self.anisotropy.is_some(), "anisotropy"),
@@ -189,7 +210,13 @@ impl Keys {
             (span(&self.coat_normal_map), "coat_normal_map", self.clearcoat.is_some(), "clearcoat"),
             (span(&self.coat_normal_scale), "coat_normal_scale", self.coat_normal_map.is_some(), "coat_normal_map"),
             (span(&self.sheen_roughness), "sheen_roughness", self.sheen_color.is_some(), "sheen_color"),
-            (span(&self.attenuation_color), "attenuation_color", self.transmission.is_some(), "transmission"),
+            (span(&self.attenuation_color), "attenuation_color", lets_light_in, "transmission"),
+            (
+                span(&self.diffuse_transmission_color),
+                "diffuse_transmission_color",
+                self.diffuse_transmission.is_some(),
+                "diffuse_transmission",
+            ),
             (span(&self.attenuation_color), "attenuation_color", self.attenuation_distance.is_some(), "attenuation_distance"),
             (span(&self.attenuation_distance), "attenuation_distance", self.attenuation_color.is_some(), "attenuation_color"),
         ];

@@ -39,6 +39,8 @@ impl Resolver<'_> {
             specular_color: ColorInput::grey(1.0),
             // Blender writes what lets light through by `d` and an illumination model of glass.
             transmission: ColorInput::grey(if opacity < 1.0 && is_glass(written) { 1.0 - opacity } else { 0.0 }),
+            diffuse_transmission: ColorInput::grey(0.0),
+            diffuse_transmission_color: ColorInput::grey(1.0),
             thin: false,
             attenuation: None,
             sheen_roughness: ColorInput::grey(if sheen == ColorInput::grey(0.0) { 0.0 } else { SHEEN_ROUGHNESS }),

@@ -59,7 +59,8 @@ fn file() -> Value {
         "KHR_materials_anisotropy": { "anisotropyStrength": 0.5, "anisotropyRotation": 0.5, "anisotropyTexture": texture(0) },
         "KHR_materials_iridescence": { "iridescenceFactor": 0.0 },
         "KHR_materials_dispersion": { "dispersion": 0.0 },
-        "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.0 },
+        "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.5, "diffuseTransmissionTexture": texture(0),
+            "diffuseTransmissionColorFactor": [0.5, 0.6, 0.7], "diffuseTransmissionColorTexture": texture(0) },
     }));
     everything["normalTexture"] = json!({ "index": 0, "texCoord": 0, "scale": 0.5 });
     everything["occlusionTexture"] = json!({ "index": 0, "strength": 0.5 });
@@ -187,7 +188,6 @@ fn rows() -> Vec<Row> {
     const FACTOR_ENDS: [f64; 4] = [-1.0, 0.0, 1.0, 2.0];
     const ORTHOGRAPHIC: &[(&str, &str)] = &[("/nodes/1/camera", "1")];
     const GLOSSY: &[(&str, &str)] = &[("/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/0/material", "2")];
-    const OPAQUE: &[(&str, &str)] = &[("/materials/1/extensions/KHR_materials_transmission", "null")];
     let colours = || json!([[-1.0, 0.5, 0.5], [0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 0.5, 0.5]]);
     let texture = || json!([{ "index": 1 }, null, { "index": 77 }]);
     let mut rows = vec![
@@ -341,12 +341,13 @@ fn rows() -> Vec<Row> {
         ("ANISOTROPY", "extensions/KHR_materials_anisotropy", "anisotropyRotation", &factors, &[]),
         ("IRIDESCENCE", "extensions/KHR_materials_iridescence", "iridescenceFactor", &json!([1.0]), &[]),
         ("DISPERSION", "extensions/KHR_materials_dispersion", "dispersion", &json!([0.1]), &[]),
+        ("DIFFUSE_TRANSMISSION", "extensions/KHR_materials_diffuse_transmission", "diffuseTransmissionFactor", &factors, &[]),
         (
             "DIFFUSE_TRANSMISSION",
             "extensions/KHR_materials_diffuse_transmission",
-            "diffuseTransmissionFactor",
-            &json!([1.0]),
-            OPAQUE,
+            "diffuseTransmissionColorFactor",
+            &colours(),
+            &[],
         ),
         (
             "TRANSFORM",
@@ -389,6 +390,8 @@ fn rows() -> Vec<Row> {
         "extensions/KHR_materials_specular/specularColorTexture",
         "extensions/KHR_materials_transmission/transmissionTexture",
         "extensions/KHR_materials_volume/thicknessTexture",
+        "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture",
+        "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
         "extensions/KHR_materials_clearcoat/clearcoatTexture",
         "extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
         "extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
