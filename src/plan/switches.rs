@@ -295,6 +295,8 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
         materials.iter().any(|material| material.has_form(material::DIFFUSE_TRANSMITS)),
     );
     let has_form = |form: u32| materials.iter().any(|material| material.has_form(form));
+    switches.enable("THIN_FILM", has_form(material::THIN_FILM));
+    switches.enable("CARRIED_LIGHT", [LobeKind::SpectralGlass, LobeKind::RoughSpectralGlass].into_iter().any(has));
     switches.enable("COMPENSATION", has_form(material::COMPENSATED));
     switches.enable("SHEEN", has_form(material::SHEEN));
     switches.enable("MEDIA", !packed.materials.media.is_empty());

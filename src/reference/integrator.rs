@@ -129,6 +129,7 @@ impl Integrator {
         visitor.round_surface(&mut surface);
         let wo = -path.ray.direction;
         path.throughput *= transmittance(&self.media, path.stack.innermost(), surface.point.position.distance(path.ray.origin));
+        surface.carried = path.throughput;
         visitor.surface(path.depth, &surface, wo, path.throughput);
 
         // Let the camera look through emitters that it is not to see

@@ -14,6 +14,9 @@
 #import shading/surface.wgsl
 #import shading/microfacet/albedo.wgsl
 #import shading/microfacet/sheen.wgsl
+#if THIN_FILM
+#import shading/microfacet/thin_film.wgsl
+#endif
 
 struct Principled {
     base: Spectrum,
@@ -32,6 +35,11 @@ struct Principled {
     // The index of refraction beyond over that on wo's side; 1 if no light comes from within.
     eta: f32,
     sheen: Sheen,
+#if THIN_FILM
+    film: ThinFilm,
+    // The part of the surface that it covers.
+    film_share: f32,
+#endif
 }
 
 struct PrincipledShares {
@@ -65,6 +73,10 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
         p.diffuse_transmission_color = parameters.diffuse_transmission_color;
     }
     p.sheen = Sheen(parameters.sheen_color, max(parameters.sheen_roughness, SMALLEST_SHEEN_ROUGHNESS));
+#if THIN_FILM
+    p.film = thin_film_of(parameters.thin_film_thickness, parameters.thin_film);
+    p.film_share = parameters.thin_film_share;
+#endif
     p.coat = coat_of(lobe, parameters.coat, parameters.coat_roughness);
     let alpha = lobe.roughness * lobe.roughness;
     p.facets = Facets(alpha, alpha, lobe.kind);
@@ -108,6 +120,17 @@ fn principled_frame(lobe: Lobe, facets: Facets, surface: Surface) -> Frame {
     return facet_frame(facets, surface);
 }
 
+// The reflectance of a layer by that along the normal: by Schlick's formula, or that of a film on it.
+fn principled_fresnel(p: Principled, cosine: f32, normal_incidence: Spectrum) -> Spectrum {
+    let plain = schlick(cosine, normal_incidence);
+#if THIN_FILM
+    if p.film.thickness > 0.0 {
+        return mix(plain, film_reflectance_over(p.film, cosine, normal_incidence), p.film_share);
+    }
+#endif
+    return plain;
+}
+
 struct PrincipledSplit {
     reflected: Spectrum,
     // Share that goes on to the dielectric's base.
@@ -125,8 +148,8 @@ fn principled_split(p: Principled, cosine: f32) -> PrincipledSplit {
         }
         outside = min(sqrt(cosine2), 1.0);
     }
-    let dielectric = p.specular * schlick(outside, p.normal_incidence);
-    let reflected = mix(dielectric, schlick(cosine, p.base), p.metallic);
+    let dielectric = p.specular * principled_fresnel(p, outside, p.normal_incidence);
+    let reflected = mix(dielectric, principled_fresnel(p, cosine, p.base), p.metallic);
     return PrincipledSplit(reflected, (1.0 - p.metallic) * (1.0 - max_component(dielectric)));
 }
 
@@ -139,7 +162,11 @@ fn principled_compensation(p: Principled, cosine: f32) -> Spectrum {
     let alpha = min(p.facets.alpha, alpha_across(p.facets));
     let table = select(CORRELATED_ALBEDO_WORD, SEPARABLE_ALBEDO_WORD, (p.facets.flags & SEPARABLE_MASKS) != 0u);
     let once = tabulated_albedo(table, cosine, sqrt(alpha), FACET_KNEE * alpha);
-    return 1.0 + mix(p.specular * p.normal_incidence, p.base, p.metallic) * ((1.0 - once) / once);
+    var along_normal = mix(p.specular * p.normal_incidence, p.base, p.metallic);
+#if THIN_FILM
+    along_normal = mix(p.specular * principled_fresnel(p, 1.0, p.normal_incidence), principled_fresnel(p, 1.0, p.base), p.metallic);
+#endif
+    return 1.0 + along_normal * ((1.0 - once) / once);
 }
 
 // Light comes from within the volume that the surface encloses.

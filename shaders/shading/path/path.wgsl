@@ -141,6 +141,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     }
     // A hit in an instance may come without its distance.
     incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
+#if CARRIED_LIGHT
+    surface.carried = incoming.throughput;
+#endif
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     trace_surface(surface.position, surface.shading_normal, surface.material);
     if HAS_HIDDEN_EMITTERS && depth == 1u && gives_light(surface.material) {

@@ -25,9 +25,13 @@ mod plastic;
 mod principled;
 mod rough_glass;
 mod rough_plastic;
+mod rough_spectral_glass;
 mod rough_thin_glass;
 mod scatter;
 mod sheen;
+mod spectral_dielectric;
+mod spectral_glass;
+mod thin_film;
 mod thin_glass;
 mod view;
 

@@ -1,5 +1,5 @@
 //! The material of glTF 2.0's Appendix B, with its extensions for indices of refraction, specular, transmission, clearcoat, sheen,
-//! anisotropy and diffuse transmission.
+//! anisotropy, diffuse transmission and iridescence.
 
 use std::f64::consts::FRAC_1_PI;
 
@@ -11,6 +11,7 @@ use super::lookup::Lookup;
 use super::microfacet::Facets;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::sheen::Sheen;
+use super::thin_film::ThinFilm;
 use super::view::View;
 use crate::math::Frame;
 use crate::reference::intersect::{NormalTexel, UvSet};
@@ -30,7 +31,8 @@ use crate::spectrum::Spectrum;
 /// material    coat·Fc·Mc + (1 − coat·Fc) · sheen              Fc = 0.04 + 0.96·(1 − cosθo)⁵
 /// ```
 ///
-/// w and k are the specular factor and colour, t is the transmission, d the share of diffuse transmission and e its colour; there h is that of
+/// Where a film lies on the surface, F and c + (1 − c)·s are what it reflects over a base of as much reflectance along the normal, by its share
+/// ([`ThinFilm`]). w and k are the specular factor and colour, t is the transmission, d the share of diffuse transmission and e its colour; there h is that of
 /// wi mirrored in the surface. T is the microfacets' transmission: of a thin wall M mirrored in the
 /// surface, else Walter's refraction. Its h is that of the facet which bends wi to wo; |wo·h| is taken on the side of air, and where a facet
 /// reflects totally F is 1. With compensation, M is multiplied by 1 + F0·(1 − E)/E, E the share of light that white microfacets reflect seen at
@@ -56,6 +58,8 @@ pub struct Principled {
     /// 1.
     pub direction: DVec2,
     pub sheen: Sheen,
+    /// With the share of the surface that it covers.
+    pub film: Option<(ThinFilm, f64)>,
     pub compensates: bool,
 }
 
@@ -108,10 +112,19 @@ impl Principled {
         }
         let outside = outside.max(0.0).sqrt().min(1.0);
         let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(Spectrum::WHITE);
-        let dielectric = schlick_reflectance(outside, normal_incidence) * self.specular;
-        let metal = schlick_reflectance(cosine.min(1.0), self.base);
+        let dielectric = self.fresnel(outside, normal_incidence) * self.specular;
+        let metal = self.fresnel(cosine.min(1.0), self.base);
         let reflected = metal * self.metallic + dielectric * (1.0 - self.metallic);
         Split { reflected, passed: (1.0 - self.metallic) * (1.0 - dielectric.max_component()) }
+    }
+
+    /// What a layer reflects by its reflectance along the normal: by Schlick's approximation, or as a film on it does.
+    fn fresnel(&self, cosine: f64, normal_incidence: Spectrum) -> Spectrum {
+        let plain = schlick_reflectance(cosine, normal_incidence);
+        match self.film {
+            Some((film, share)) => plain.lerp(film.reflectance_over(cosine, normal_incidence), share),
+            None => plain,
+        }
     }
 
     /// The ratio of indices that reflection is judged by: 1 where no light comes from within.
@@ -142,7 +155,8 @@ impl Principled {
         let alpha = self.facets.alpha.min_element();
         let once = AlbedoTable::of_facets(self.facets.masking).at(cosine, alpha.sqrt());
         let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(Spectrum::WHITE);
-        let reflected = self.base * self.metallic + normal_incidence * (self.specular * (1.0 - self.metallic));
+        let [metal, dielectric] = [self.base, normal_incidence].map(|layer| self.fresnel(1.0, layer));
+        let reflected = metal * self.metallic + dielectric * (self.specular * (1.0 - self.metallic));
         Spectrum::WHITE + reflected * ((1.0 - once) / once)
     }
 
@@ -354,6 +368,7 @@ impl Scatter for Principled {
                 color: lookup.color(&written.sheen_color),
                 roughness: lookup.scalar(&written.sheen_roughness).max(SMALLEST_SHEEN_ROUGHNESS),
             },
+            film: ThinFilm::of(written.thin_film.as_ref(), lookup).map(|film| (film, lookup.scalar(&written.thin_film_share))),
             compensates: written.energy_compensation,
         })
     }

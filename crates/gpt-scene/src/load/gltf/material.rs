@@ -22,6 +22,8 @@ use crate::spectrum::Spectrum;
 /// Index of refraction where nothing is said, and the largest that scene files have.
 const IOR: f64 = 1.5;
 const LARGEST_IOR: f64 = 10.0;
+/// Largest thickness of a film in nanometres that is read.
+const LARGEST_THICKNESS: f64 = 1e6;
 const GLOSSY: &str = "KHR_materials_pbrSpecularGlossiness";
 const SPECULAR: &str = "KHR_materials_specular";
 const VOLUME: &str = "KHR_materials_volume";
@@ -324,7 +326,49 @@ impl Surface<'_, '_> {
             // Directions follow texture coordinates.
             self.coordinates.get_or_insert(Coordinates { set: 0, map: DAffine2::IDENTITY, second: None });
         }
+        self.iridescence(&mut keys)?;
         Ok(MaterialEntry::Principled(keys))
+    }
+
+    /// A thin film (KHR_materials_iridescence).
+    fn iridescence(&mut self, keys: &mut principled::Keys) -> Result<(), String> {
+        const IRIDESCENCE: &str = "KHR_materials_iridescence";
+        const TEXTURE: &str = "iridescenceThicknessTexture";
+        let share = self.factor(IRIDESCENCE, "iridescenceFactor", 0.0, "iridescenceTexture", Channel::R)?;
+        if share.is(0.0) {
+            return Ok(());
+        }
+        let mut nanometres = |key: &str, default: f64| {
+            let written = self.number(IRIDESCENCE, key, default);
+            self.within(written, [0.0, LARGEST_THICKNESS], key)
+        };
+        let [least, most] = [nanometres("iridescenceThicknessMinimum", 100.0), nanometres("iridescenceThicknessMaximum", 400.0)];
+        let ior = self.number(IRIDESCENCE, "iridescenceIor", 1.3);
+        let ior = self.within(ior, [1.0, LARGEST_IOR], "iridescenceIor");
+        let place = self.place();
+        let (thickness, offset) = match self.texture_of(IRIDESCENCE, TEXTURE)? {
+            Some(info) if least < most => {
+                let map = self.lookup(&info, TextureRole::Numbers, TEXTURE, None)?;
+                (Share { map: Some((map, Channel::G)), factor: most - least }, least)
+            }
+            Some(_) if least > most => {
+                self.approximate(
+                    "iridescenceThicknessMinimum above the maximum",
+                    "the film is as thick as the maximum everywhere",
+                );
+                (Share::constant(most), 0.0)
+            }
+            _ => (Share::constant(most), 0.0),
+        };
+        if keys.clearcoat.is_some() {
+            self.approximate("KHR_materials_iridescence below a clear coat", "the film reflects as it does in air");
+        }
+        keys.thin_film = Some(place.at(share.scalar(&place)?));
+        keys.thin_film_thickness = Some(place.at(thickness.scalar(&place)?));
+        keys.thin_film_offset =
+            Some(offset).filter(|offset| *offset != 0.0).map(Checked::of).transpose()?.map(|offset| place.at(offset));
+        keys.thin_film_ior = Some(place.at(Checked::of(ior)?));
+        Ok(())
     }
 
     /// A factor of an extension, times a channel of its texture.
@@ -420,10 +464,7 @@ impl Surface<'_, '_> {
 
     /// Names what of known extensions has no effect.
     fn report_extensions(&mut self) {
-        const PARTS: [(&str, &str, &str); 2] = [
-            ("KHR_materials_iridescence", "iridescenceFactor", "there is no thin film"),
-            ("KHR_materials_dispersion", "dispersion", "all colours are bent alike"),
-        ];
+        const PARTS: [(&str, &str, &str); 1] = [("KHR_materials_dispersion", "dispersion", "all colours are bent alike")];
         for (name, key, instead) in PARTS {
             if self.number(name, key, 0.0) != 0.0 {
                 self.drop(name, instead);

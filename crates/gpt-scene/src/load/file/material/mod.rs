@@ -17,6 +17,7 @@ pub mod plastic;
 pub mod principled;
 pub mod rough_glass;
 pub mod roughness;
+pub mod thin_film;
 
 use schemars::JsonSchema;
 use serde::Deserialize;

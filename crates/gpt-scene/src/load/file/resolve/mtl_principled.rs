@@ -51,6 +51,8 @@ impl Resolver<'_> {
             coat_normal_map: None,
             anisotropy: Some(anisotropy).filter(|strength| *strength != ColorInput::grey(0.0)),
             anisotropy_direction: None,
+            thin_film: None,
+            thin_film_share: ColorInput::grey(1.0),
             // A share of a whole turn.
             anisotropy_rotation_degrees: 360.0 * rotation,
             masking: Masking::Separable,
