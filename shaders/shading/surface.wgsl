@@ -1,6 +1,7 @@
 // The surface at a hit: position, normals, texture coordinates, material.
 #import core/layout.wgsl
 #import core/math.wgsl
+#import core/spectrum.wgsl
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
 #import shading/texture/coordinates.wgsl
@@ -44,6 +45,10 @@ struct Surface {
     // With COAT_NORMALS and SECOND_UVS, the directions in which second texture coordinates grow; those of the first where there is one set.
     second_along_u: vec3<f32>,
     second_along_v: vec3<f32>,
+#if CARRIED_LIGHT
+    // The throughput of the path that arrives.
+    carried: Spectrum,
+#endif
 }
 
 // How a surface is seen along `wo`.

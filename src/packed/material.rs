@@ -36,6 +36,13 @@ shared_constants!(flags {
     const ANISOTROPIC: u32 = material::ANISOTROPIC << FORM_SHIFT;
     const THIN_WALL: u32 = material::THIN_WALL << FORM_SHIFT;
     const COMPENSATED: u32 = material::COMPENSATED << FORM_SHIFT;
+    const DIFFUSE_TRANSMITS: u32 = material::DIFFUSE_TRANSMITS << FORM_SHIFT;
+    const THIN_FILM: u32 = material::THIN_FILM << FORM_SHIFT;
+    /// Reflections within a thin film that are added up, and the smallest part of light that counts.
+    const MOST_FILM_ORDERS: u32 = material::thin_film::MOST_ORDERS;
+    const LEAST_FILM_ORDER: f32 = material::thin_film::LEAST_ORDER as f32;
+    /// A base of a film that reflects more along the normal counts as one that reflects this.
+    const MOST_REFLECTED_BY_BASE: f32 = material::thin_film::MOST_REFLECTED_BY_BASE as f32;
     const DIRECTED: u32 = material::DIRECTED << FORM_SHIFT;
     const COAT_NORMAL_MAP: u32 = material::COAT_NORMAL_MAP << FORM_SHIFT;
     /// Rows of a table of albedos, by roughness, and its columns, by cosine.

@@ -1,6 +1,6 @@
 //! The WGSL files that are made from Rust's tables: the same for every scene.
 
-use super::{layout, lights, lobes, shapes};
+use super::{layout, lights, lobes, shapes, thin_film};
 
 /// The name under which kernels import each, and its text.
 pub fn files() -> Vec<(&'static str, String)> {
@@ -8,6 +8,7 @@ pub fn files() -> Vec<(&'static str, String)> {
         (layout::FILE, layout::wgsl()),
         (lobes::FILE, lobes::wgsl()),
         (lobes::PARAMETERS_FILE, lobes::parameters_wgsl()),
+        (thin_film::FILE, thin_film::wgsl()),
         (lights::DELTA_FILE, lights::delta_wgsl()),
         (lights::OUTSIDE_FILE, lights::outside_wgsl()),
         (shapes::GEOMETRY_FILE, shapes::geometry_wgsl()),

@@ -27,6 +27,7 @@ mod ray_query;
 pub mod shapes;
 pub mod stages;
 pub mod switches;
+pub mod thin_film;
 pub mod trace_record;
 mod traversal;
 pub mod unroll;

@@ -295,7 +295,13 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("SEPARABLE_MASKING", materials.iter().any(|material| material.has_form(SEPARABLE_MASKING)));
     let transmits = |material: &PackedMaterial| material.has_form(material::TRANSMITS);
     switches.enable("PRINCIPLED_TRANSMISSION", materials.iter().any(transmits));
+    switches.enable(
+        "PRINCIPLED_DIFFUSE_TRANSMISSION",
+        materials.iter().any(|material| material.has_form(material::DIFFUSE_TRANSMITS)),
+    );
     let has_form = |form: u32| materials.iter().any(|material| material.has_form(form));
+    switches.enable("THIN_FILM", has_form(material::THIN_FILM));
+    switches.enable("CARRIED_LIGHT", [LobeKind::SpectralGlass, LobeKind::RoughSpectralGlass].into_iter().any(has));
     switches.enable("COMPENSATION", has_form(material::COMPENSATED));
     switches.enable("SHEEN", has_form(material::SHEEN));
     let media = &packed.materials.media;

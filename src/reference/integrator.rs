@@ -137,11 +137,12 @@ impl Integrator {
         }
 
         // Add light from outside where the ray left the scene
-        let Some(surface) = surface else {
+        let Some(mut surface) = surface else {
             self.add_escaped_radiance(path, visitor);
             return false;
         };
         let wo = -path.ray.direction;
+        surface.carried = path.throughput;
         visitor.surface(path.depth, &surface, wo, path.throughput);
 
         // Let the camera look through emitters that it is not to see

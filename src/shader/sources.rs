@@ -79,6 +79,8 @@ shader_files![
     "shading/microfacet/microfacet.wgsl",
     "shading/microfacet/plastic.wgsl",
     "shading/microfacet/sheen.wgsl",
+    "shading/microfacet/spectral_dielectric.wgsl",
+    "shading/microfacet/thin_film.wgsl",
     "shading/path/arrival.wgsl",
     "shading/path/guide.wgsl",
     "shading/path/guided.wgsl",

@@ -167,6 +167,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("BVH").one_of(HELD).excludes(&["RAY_QUERY"]),
     // The camera moves while the shutter is open.
     switch("CAMERA_MOTION"),
+    // Surfaces know what the path carries to them.
+    switch("CARRIED_LIGHT").one_of(&["ROUGH_SPECTRAL_GLASS", "SPECTRAL_GLASS"]),
     switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
     // Coats lie about other normals than what is below them.
     switch("COAT_NORMALS").requires(&["FURTHER_PARAMETERS", "PRINCIPLED", "TANGENTS", "TEXTURES"]),
@@ -253,6 +255,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("PLANT_MIS").requires(&["ESTIMATOR_MIS", "LIGHTS"]).debug(),
     switch("PORTALS").requires(&["ENVIRONMENT_SAMPLED"]),
     switch("PRIMITIVE_CHUNKS").excludes(&["UNIFORM_PRIMITIVES"]),
+    switch("PRINCIPLED_DIFFUSE_TRANSMISSION").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
     switch("PRINCIPLED_TRANSMISSION"),
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
     // Acceleration structures hold a scene at rest.
@@ -291,6 +294,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("TEXTURE_CHANNELS").requires(&["IMAGES"]),
     switch("TEXTURE_PRODUCTS").requires(&["TEXTURES"]),
     switch("TEXTURE_ROTATION").requires(&["TEXTURES"]),
+    // A film on some surface makes light interfere.
+    switch("THIN_FILM").requires(&["FURTHER_PARAMETERS"]),
     switch("TRACE").debug(),
     // Among them are lights.
     switch("TRIANGLES_BY_SOLID_ANGLE").requires(&["FLAT_LIGHTS_BY_SOLID_ANGLE", "TRIANGLE_LIGHTS"]),

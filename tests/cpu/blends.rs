@@ -109,11 +109,11 @@ fn blend(scene: &mut Scene, first: MaterialId, second: MaterialId, weight: Blend
 
 fn metal(alpha: f64) -> MaterialKind {
     let (fresnel, facets) = (ConductorFresnel::Reflectance(grey(0.8)), Microfacets::ggx(grey(alpha)));
-    MaterialKind::Conductor { fresnel, facets, specular_reflectance: grey(1.0) }
+    MaterialKind::Conductor { fresnel, facets, specular_reflectance: grey(1.0), film: None }
 }
 
 fn rough_glass(facets: Microfacets) -> MaterialKind {
-    MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey(1.0), transmittance: grey(1.0), thin: false }
+    MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey(1.0), transmittance: grey(1.0), thin: false, film: None }
 }
 
 /// Balls of nested blends: every kind of lobe, a light among them, weights by angle and by noise.
@@ -193,7 +193,7 @@ fn a_blend_of_one_material_is_that_material() {
     let kinds = [
         MaterialKind::Diffuse { reflectance: grey(0.7) },
         MaterialKind::Mirror { reflectance: grey(0.7) },
-        MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false },
+        MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false, film: None },
         metal(0.3),
         rough_glass(Microfacets::ggx(grey(0.3))),
     ];

@@ -24,6 +24,8 @@ pub mod load;
 #[doc(hidden)]
 pub mod math;
 #[doc(hidden)]
+pub mod observer;
+#[doc(hidden)]
 pub mod output_error;
 #[doc(hidden)]
 pub mod picture_file;

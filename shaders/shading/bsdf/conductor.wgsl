@@ -4,6 +4,9 @@
 #import shading/material/lobe.wgsl
 #import shading/material/parameters.wgsl
 #import shading/microfacet/microfacet.wgsl
+#if THIN_FILM
+#import shading/microfacet/thin_film.wgsl
+#endif
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
@@ -28,6 +31,16 @@ fn conductor_reflectance(lobe: Lobe, cosine: f32) -> Spectrum {
 // The reflectance of a metal: the exact equations for a complex index of refraction, or Schlick's
 // approximation.
 fn conductor_fresnel(lobe: Lobe, cosine: f32) -> Spectrum {
+#if THIN_FILM
+    let parameters = conductor_parameters(lobe);
+    let film = thin_film_of(parameters.thin_film_thickness, parameters.thin_film);
+    if film.thickness > 0.0 {
+        if (lobe.kind & COMPLEX_FRESNEL) == 0u {
+            return film_reflectance_over(film, cosine, lobe.color0);
+        }
+        return film_reflectances(film, cosine, lobe.color0, lobe.color1);
+    }
+#endif
     let c2 = cosine * cosine;
     if (lobe.kind & COMPLEX_FRESNEL) == 0u {
         let away = 1.0 - cosine;

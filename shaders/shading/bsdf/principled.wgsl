@@ -14,6 +14,9 @@
 #import shading/surface.wgsl
 #import shading/microfacet/albedo.wgsl
 #import shading/microfacet/sheen.wgsl
+#if THIN_FILM
+#import shading/microfacet/thin_film.wgsl
+#endif
 
 struct Principled {
     base: Spectrum,
@@ -22,6 +25,9 @@ struct Principled {
     metallic: f32,
     specular: f32,
     transmission: f32,
+    // The part of the diffuse base that scatters light on, and the colour by which it does.
+    diffuse_transmission: f32,
+    diffuse_transmission_color: Spectrum,
     coat: Coat,
     facets: Facets,
     // Transmitted light goes on as if the wall had no thickness.
@@ -29,6 +35,11 @@ struct Principled {
     // The index of refraction beyond over that on wo's side; 1 if no light comes from within.
     eta: f32,
     sheen: Sheen,
+#if THIN_FILM
+    film: ThinFilm,
+    // The part of the surface that it covers.
+    film_share: f32,
+#endif
 }
 
 struct PrincipledShares {
@@ -36,6 +47,7 @@ struct PrincipledShares {
     coat: f32,
     reflection: f32,
     diffuse: f32,
+    diffuse_transmission: f32,
     transmission: f32,
 }
 
@@ -56,7 +68,15 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
             p.eta = select(1.0 / lobe.ior, lobe.ior, front);
         }
     }
+    if HAS_PRINCIPLED_DIFFUSE_TRANSMISSION {
+        p.diffuse_transmission = parameters.diffuse_transmission;
+        p.diffuse_transmission_color = parameters.diffuse_transmission_color;
+    }
     p.sheen = Sheen(parameters.sheen_color, max(parameters.sheen_roughness, SMALLEST_SHEEN_ROUGHNESS));
+#if THIN_FILM
+    p.film = thin_film_of(parameters.thin_film_thickness, parameters.thin_film);
+    p.film_share = parameters.thin_film_share;
+#endif
     p.coat = coat_of(lobe, parameters.coat, parameters.coat_roughness);
     let alpha = lobe.roughness * lobe.roughness;
     p.facets = Facets(alpha, alpha, lobe.kind);
@@ -100,6 +120,17 @@ fn principled_frame(lobe: Lobe, facets: Facets, surface: Surface) -> Frame {
     return facet_frame(facets, surface);
 }
 
+// The reflectance of a layer by that along the normal: by Schlick's formula, or that of a film on it.
+fn principled_fresnel(p: Principled, cosine: f32, normal_incidence: Spectrum) -> Spectrum {
+    let plain = schlick(cosine, normal_incidence);
+#if THIN_FILM
+    if p.film.thickness > 0.0 {
+        return mix(plain, film_reflectance_over(p.film, cosine, normal_incidence), p.film_share);
+    }
+#endif
+    return plain;
+}
+
 struct PrincipledSplit {
     reflected: Spectrum,
     // Share that goes on to the dielectric's base.
@@ -117,8 +148,8 @@ fn principled_split(p: Principled, cosine: f32) -> PrincipledSplit {
         }
         outside = min(sqrt(cosine2), 1.0);
     }
-    let dielectric = p.specular * schlick(outside, p.normal_incidence);
-    let reflected = mix(dielectric, schlick(cosine, p.base), p.metallic);
+    let dielectric = p.specular * principled_fresnel(p, outside, p.normal_incidence);
+    let reflected = mix(dielectric, principled_fresnel(p, cosine, p.base), p.metallic);
     return PrincipledSplit(reflected, (1.0 - p.metallic) * (1.0 - max_component(dielectric)));
 }
 
@@ -131,7 +162,11 @@ fn principled_compensation(p: Principled, cosine: f32) -> Spectrum {
     let alpha = min(p.facets.alpha, alpha_across(p.facets));
     let table = select(CORRELATED_ALBEDO_WORD, SEPARABLE_ALBEDO_WORD, (p.facets.flags & SEPARABLE_MASKS) != 0u);
     let once = tabulated_albedo(table, cosine, sqrt(alpha), FACET_KNEE * alpha);
-    return 1.0 + mix(p.specular * p.normal_incidence, p.base, p.metallic) * ((1.0 - once) / once);
+    var along_normal = mix(p.specular * p.normal_incidence, p.base, p.metallic);
+#if THIN_FILM
+    along_normal = mix(p.specular * principled_fresnel(p, 1.0, p.normal_incidence), principled_fresnel(p, 1.0, p.base), p.metallic);
+#endif
+    return 1.0 + along_normal * ((1.0 - once) / once);
 }
 
 // Light comes from within the volume that the surface encloses.
@@ -147,6 +182,22 @@ fn principled_below_sheen(p: Principled, cosine_o: f32, cosine_i: f32) -> f32 {
     return 1.0 - max(sheen_taken(p.sheen, cosine_o), sheen_taken(p.sheen, cosine_i));
 }
 
+// Lambert's lobes of the dielectric's base, times π: of light from wo's side, and from the other one.
+struct PrincipledDiffuse {
+    back: Spectrum,
+    on: Spectrum,
+}
+
+// On the denser side a part of what would be scattered on comes back.
+fn principled_diffuse_base(p: Principled) -> PrincipledDiffuse {
+    if !HAS_PRINCIPLED_DIFFUSE_TRANSMISSION {
+        return PrincipledDiffuse(p.base * (1.0 - p.transmission), BLACK);
+    }
+    let on = p.diffuse_transmission_color * ((1.0 - p.transmission) * p.diffuse_transmission);
+    let back = p.base * ((1.0 - p.transmission) * (1.0 - p.diffuse_transmission));
+    return PrincipledDiffuse(back + on * max(1.0 - p.eta * p.eta, 0.0), on * min(1.0 / (p.eta * p.eta), 1.0));
+}
+
 fn principled_shares(p: Principled, surface: Surface, wo: vec3<f32>) -> PrincipledShares {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
     // The coat lies on the outside.
@@ -154,25 +205,42 @@ fn principled_shares(p: Principled, surface: Surface, wo: vec3<f32>) -> Principl
     let split = principled_split(p, cosine);
     let possible = select(max(p.metallic, (1.0 - p.metallic) * p.specular), 1.0, p.eta < 1.0);
     var reflection = max(max_component(split.reflected), LEAST_REFLECTED * possible);
-    let base = max(split.passed, (1.0 - p.metallic) * (1.0 - MOST_REFLECTED)) * max_component(p.base);
+    let passed = max(split.passed, (1.0 - p.metallic) * (1.0 - MOST_REFLECTED));
+    let base = passed * max_component(p.base);
     var diffuse = base * (1.0 - p.transmission);
     var transmission = base * p.transmission;
+    var diffuse_transmission = 0.0;
+    if HAS_PRINCIPLED_DIFFUSE_TRANSMISSION {
+        let of_base = principled_diffuse_base(p);
+        diffuse = passed * max_component(of_base.back);
+        diffuse_transmission = passed * max_component(of_base.on) * p.eta * p.eta;
+    }
     // The fibres stand on the outside, and are sampled as the diffuse base is.
     if HAS_SHEEN && !principled_is_within(p, surface) {
         let taken = sheen_taken(p.sheen, cosine);
         reflection *= 1.0 - taken;
         diffuse = diffuse * (1.0 - taken) + taken;
         transmission *= 1.0 - taken;
+        diffuse_transmission *= 1.0 - taken;
     }
-    let sum = max(coat + (1.0 - coat) * (reflection + diffuse + transmission), 1.0e-30);
+    let sum = max(coat + (1.0 - coat) * (reflection + diffuse + diffuse_transmission + transmission), 1.0e-30);
     return PrincipledShares(
-        1.0 - coat, coat / sum, (1.0 - coat) * reflection / sum, (1.0 - coat) * diffuse / sum, (1.0 - coat) * transmission / sum
+        1.0 - coat,
+        coat / sum,
+        (1.0 - coat) * reflection / sum,
+        (1.0 - coat) * diffuse / sum,
+        (1.0 - coat) * diffuse_transmission / sum,
+        (1.0 - coat) * transmission / sum
     );
 }
 
 fn principled_is_non_delta(lobe: Lobe) -> bool {
     let p = principled_of(lobe, true);
-    let diffuse = (1.0 - p.metallic) * (1.0 - p.transmission) * max_component(p.base);
+    var strongest = max_component(p.base);
+    if HAS_PRINCIPLED_DIFFUSE_TRANSMISSION {
+        strongest = max_component(max(p.base * (1.0 - p.diffuse_transmission), p.diffuse_transmission_color * p.diffuse_transmission));
+    }
+    let diffuse = (1.0 - p.metallic) * (1.0 - p.transmission) * strongest;
     if HAS_SHEEN && max_component(p.sheen.color) > 0.0 {
         return true;
     }
@@ -184,7 +252,11 @@ fn principled_sampling_weight(lobe: Lobe) -> f32 {
     p.eta = 1.0;
     let split = principled_split(p, 1.0);
     let coat = COAT_REFLECTANCE * p.coat.strength;
-    let weight = coat + (1.0 - coat) * max_component(split.reflected + p.base * split.passed);
+    var base = p.base;
+    if HAS_PRINCIPLED_DIFFUSE_TRANSMISSION {
+        base = mix(p.base, p.diffuse_transmission_color, (1.0 - p.transmission) * p.diffuse_transmission);
+    }
+    let weight = coat + (1.0 - coat) * max_component(split.reflected + base * split.passed);
     return select(weight, weight + SHEEN_WEIGHT * max_component(p.sheen.color), HAS_SHEEN);
 }
 
@@ -213,7 +285,7 @@ fn principled_base_value(
     if on_wo_side(surface, wi) {
         let m = normalize(o + i);
         let split = principled_split(p, clamp(dot(o, m), 0.0, 1.0));
-        var value = p.base * (split.passed * (1.0 - p.transmission) * INVERSE_PI * i.z);
+        var value = principled_diffuse_base(p).back * (split.passed * INVERSE_PI * i.z);
         var pdf = shares.diffuse * hemisphere_pdf(i.z);
         if !facets_are_smooth(p.facets) {
             let mirror = facet_reflection(p.facets, o, i, m);
@@ -225,7 +297,16 @@ fn principled_base_value(
         }
         return BsdfValue(value * shares.below_coat, pdf);
     }
-    if HAS_PRINCIPLED_TRANSMISSION && on_far_side(surface, wi) && shares.transmission > 0.0 && !facets_are_smooth(p.facets) {
+    if !on_far_side(surface, wi) {
+        return no_value();
+    }
+    var far = no_value();
+    if HAS_PRINCIPLED_DIFFUSE_TRANSMISSION && shares.diffuse_transmission > 0.0 {
+        let m = normalize(o + vec3<f32>(i.xy, -i.z));
+        let passed = principled_split(p, clamp(dot(o, m), 0.0, 1.0)).passed * principled_below_sheen(p, o.z, -i.z);
+        far = BsdfValue(principled_diffuse_base(p).on * (shares.below_coat * passed * INVERSE_PI * -i.z), shares.diffuse_transmission * hemisphere_pdf(-i.z));
+    }
+    if HAS_PRINCIPLED_TRANSMISSION && shares.transmission > 0.0 && !facets_are_smooth(p.facets) {
         var terms = vec2<f32>(0.0);
         var cosine = 0.0;
         if p.thin {
@@ -239,7 +320,7 @@ fn principled_base_value(
             let o_m = dot(o, m);
             let i_m = dot(i, m);
             if o_m <= 0.0 || i_m >= 0.0 {
-                return no_value();
+                return far;
             }
             cosine = min(o_m, 1.0);
             let lambda_o = facet_lambda(p.facets, o);
@@ -249,9 +330,10 @@ fn principled_base_value(
             terms = vec2<f32>(density * shadowing / (p.eta * p.eta), density / (1.0 + lambda_o));
         }
         let passed = principled_split(p, cosine).passed * principled_below_sheen(p, o.z, -i.z);
-        return BsdfValue(p.base * (shares.below_coat * passed * p.transmission * terms.x), shares.transmission * terms.y);
+        far.value += p.base * (shares.below_coat * passed * p.transmission * terms.x);
+        far.pdf_solid_angle += shares.transmission * terms.y;
     }
-    return no_value();
+    return far;
 }
 
 fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
@@ -261,8 +343,11 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
     let below_diffuse = below_reflection + shares.diffuse;
     let is_coat = choice < shares.coat;
     let is_reflection = !is_coat && choice < below_reflection;
-    let is_diffuse = !is_coat && !is_reflection && (choice < below_diffuse || shares.transmission == 0.0);
-    let transmits = !is_coat && !is_reflection && !is_diffuse;
+    let far_side = shares.diffuse_transmission + shares.transmission;
+    let is_back = !is_coat && !is_reflection && (choice < below_diffuse || far_side == 0.0);
+    let transmits = !is_coat && !is_reflection && !is_back;
+    let is_on = transmits && (choice < below_diffuse + shares.diffuse_transmission || shares.transmission == 0.0);
+    let is_diffuse = is_back || is_on;
     var facets = p.facets;
     if is_coat {
         facets = p.coat.facets;
@@ -302,7 +387,11 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
     }
     var wi = vec3<f32>(0.0);
     if is_diffuse {
-        wi = sample_hemisphere(surface, u, v).xyz;
+        let direction = sample_hemisphere(surface, u, v);
+        wi = direction.xyz;
+        if is_on {
+            wi -= 2.0 * direction.w * surface.shading_normal;
+        }
     } else {
         var frame = principled_frame(lobe, facets, surface);
         if is_coat {

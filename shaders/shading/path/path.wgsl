@@ -162,6 +162,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         shading.radiance += escaped_radiance(incoming, depth);
         return shading;
     }
+#if CARRIED_LIGHT
+    surface.carried = incoming.throughput;
+#endif
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     trace_surface(surface.position, surface.shading_normal, surface.material);
     if phase != 0u {

@@ -6,6 +6,7 @@ use super::fresnel::{conductor_reflectance, schlick_reflectance};
 use super::lookup::Lookup;
 use super::microfacet::Facets;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
+use super::thin_film::ThinFilm;
 use super::view::View;
 use crate::scene::{ConductorFresnel, MaterialKind};
 use crate::spectrum::Spectrum;
@@ -19,12 +20,21 @@ pub struct Conductor {
     pub facets: Facets,
     /// Factor of what is reflected.
     pub tint: Spectrum,
+    pub film: Option<ThinFilm>,
 }
 
 impl Conductor {
     /// Reflectance of a microfacet at an angle of the given cosine with its normal.
     fn reflectance(&self, cosine: f64) -> Spectrum {
-        self.tint * self.fresnel.at(cosine)
+        let reflected = match (self.film, self.fresnel) {
+            (None, fresnel) => fresnel.at(cosine),
+            (Some(film), Fresnel::Complex { eta, k }) => {
+                let (eta, k) = (eta.to_rgb(), k.to_rgb());
+                Spectrum::from_rgb([0, 1, 2].map(|channel| film.reflectance(channel, cosine, eta[channel], k[channel])))
+            }
+            (Some(film), Fresnel::Schlick(normal_incidence)) => film.reflectance_over(cosine, normal_incidence),
+        };
+        self.tint * reflected
     }
 }
 
@@ -48,12 +58,13 @@ impl Fresnel {
 
 impl Scatter for Conductor {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::Conductor { fresnel, facets, specular_reflectance } = kind else { return None };
+        let MaterialKind::Conductor { fresnel, facets, specular_reflectance, film } = kind else { return None };
         let fresnel = match fresnel {
             ConductorFresnel::Complex { eta, k } => Fresnel::Complex { eta: *eta, k: *k },
             ConductorFresnel::Reflectance(reflectance) => Fresnel::Schlick(lookup.color(reflectance)),
         };
-        Some(Self { fresnel, facets: Facets::of(facets, lookup), tint: lookup.color(specular_reflectance) })
+        let film = ThinFilm::of(film.as_ref(), lookup);
+        Some(Self { fresnel, facets: Facets::of(facets, lookup), tint: lookup.color(specular_reflectance), film })
     }
 
     fn sampling_weight(&self) -> f64 {

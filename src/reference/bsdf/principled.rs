@@ -1,5 +1,5 @@
-//! The material of glTF 2.0's Appendix B, with its extensions for indices of refraction, specular, transmission, clearcoat, sheen and
-//! anisotropy.
+//! The material of glTF 2.0's Appendix B, with its extensions for indices of refraction, specular, transmission, clearcoat, sheen,
+//! anisotropy, diffuse transmission and iridescence.
 
 use std::f64::consts::FRAC_1_PI;
 
@@ -11,6 +11,7 @@ use super::lookup::Lookup;
 use super::microfacet::Facets;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::sheen::Sheen;
+use super::thin_film::ThinFilm;
 use super::view::View;
 use crate::math::Frame;
 use crate::reference::intersect::{NormalTexel, UvSet};
@@ -23,13 +24,16 @@ use crate::spectrum::Spectrum;
 ///
 /// ```text
 /// metal       M · (c + (1 − c)·s)                            c: base colour
-/// dielectric  w·F·M + (1 − w·max F) · ((1 − t)·c/π + t·c·T)   F = f + (1 − f)·s, f = min(((η − 1)/(η + 1))²·k, 1)
+/// dielectric  w·F·M + (1 − w·max F) · ((1 − t)·B + t·c·T)   F = f + (1 − f)·s, f = min(((η − 1)/(η + 1))²·k, 1)
+/// base        B = (1 − d)·c/π, d·e/π for light from the other side
 /// surface     metallic · metal + (1 − metallic) · dielectric
 /// sheen       fibres + (1 − max E) · surface                  the fibres and what they take: `Sheen`
 /// material    coat·Fc·Mc + (1 − coat·Fc) · sheen              Fc = 0.04 + 0.96·(1 − cosθo)⁵
 /// ```
 ///
-/// w and k are the specular factor and colour, t is the transmission. T is the microfacets' transmission: of a thin wall M mirrored in the
+/// Where a film lies on the surface, F and c + (1 − c)·s are what it reflects over a base of as much reflectance along the normal, by its share
+/// ([`ThinFilm`]). w and k are the specular factor and colour, t is the transmission, d the share of diffuse transmission and e its colour; there h is that of
+/// wi mirrored in the surface. T is the microfacets' transmission: of a thin wall M mirrored in the
 /// surface, else Walter's refraction. Its h is that of the facet which bends wi to wo; |wo·h| is taken on the side of air, and where a facet
 /// reflects totally F is 1. With compensation, M is multiplied by 1 + F0·(1 − E)/E, E the share of light that white microfacets reflect seen at
 /// θo, F0 what is reflected along the normal (Turquin 2019): light that one microfacet sends to another then leaves as what is reflected once.
@@ -41,6 +45,9 @@ pub struct Principled {
     pub specular: f64,
     pub specular_color: Spectrum,
     pub transmission: f64,
+    /// Share of the diffuse base that scatters light on, and the colour by which it does.
+    pub diffuse_transmission: f64,
+    pub diffuse_transmission_color: Spectrum,
     pub thin: bool,
     pub coat: f64,
     pub facets: Facets,
@@ -51,6 +58,8 @@ pub struct Principled {
     /// 1.
     pub direction: DVec2,
     pub sheen: Sheen,
+    /// With the share of the surface that it covers.
+    pub film: Option<(ThinFilm, f64)>,
     pub compensates: bool,
 }
 
@@ -64,7 +73,14 @@ struct Shares {
     coat: f64,
     reflection: f64,
     diffuse: f64,
+    diffuse_transmission: f64,
     transmission: f64,
+}
+
+/// Lambert's lobes of the dielectric's base, times π: of light from wo's side, and from the other one.
+struct DiffuseBase {
+    back: Spectrum,
+    on: Spectrum,
 }
 
 /// Light at a facet.
@@ -96,10 +112,19 @@ impl Principled {
         }
         let outside = outside.max(0.0).sqrt().min(1.0);
         let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(Spectrum::WHITE);
-        let dielectric = schlick_reflectance(outside, normal_incidence) * self.specular;
-        let metal = schlick_reflectance(cosine.min(1.0), self.base);
+        let dielectric = self.fresnel(outside, normal_incidence) * self.specular;
+        let metal = self.fresnel(cosine.min(1.0), self.base);
         let reflected = metal * self.metallic + dielectric * (1.0 - self.metallic);
         Split { reflected, passed: (1.0 - self.metallic) * (1.0 - dielectric.max_component()) }
+    }
+
+    /// What a layer reflects by its reflectance along the normal: by Schlick's approximation, or as a film on it does.
+    fn fresnel(&self, cosine: f64, normal_incidence: Spectrum) -> Spectrum {
+        let plain = schlick_reflectance(cosine, normal_incidence);
+        match self.film {
+            Some((film, share)) => plain.lerp(film.reflectance_over(cosine, normal_incidence), share),
+            None => plain,
+        }
     }
 
     /// The ratio of indices that reflection is judged by: 1 where no light comes from within.
@@ -130,7 +155,8 @@ impl Principled {
         let alpha = self.facets.alpha.min_element();
         let once = AlbedoTable::of_facets(self.facets.masking).at(cosine, alpha.sqrt());
         let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(Spectrum::WHITE);
-        let reflected = self.base * self.metallic + normal_incidence * (self.specular * (1.0 - self.metallic));
+        let [metal, dielectric] = [self.base, normal_incidence].map(|layer| self.fresnel(1.0, layer));
+        let reflected = metal * self.metallic + dielectric * (self.specular * (1.0 - self.metallic));
         Spectrum::WHITE + reflected * ((1.0 - once) / once)
     }
 
@@ -144,9 +170,12 @@ impl Principled {
         // The fibres stand on the outside, and are sampled as the diffuse base is.
         let taken = if self.is_within(view) { 0.0 } else { self.sheen.taken(cosine) };
         let reflection = reflected.max_component().max(LEAST_REFLECTED * possible) * (1.0 - taken);
-        let base = passed.max((1.0 - self.metallic) * (1.0 - MOST_REFLECTED)) * self.base.max_component() * (1.0 - taken);
-        let [diffuse, transmission] = [base * (1.0 - self.transmission) + taken, base * self.transmission];
-        let sum = coat + (1.0 - coat) * (reflection + diffuse + transmission);
+        let passed = passed.max((1.0 - self.metallic) * (1.0 - MOST_REFLECTED)) * (1.0 - taken);
+        let DiffuseBase { back, on } = self.diffuse_base(view);
+        let diffuse = passed * back.max_component() + taken;
+        let diffuse_transmission = passed * on.max_component() * eta * eta;
+        let transmission = passed * self.transmission * self.base.max_component();
+        let sum = coat + (1.0 - coat) * (reflection + diffuse + diffuse_transmission + transmission);
         let of = |share: f64| if sum > 0.0 { share / sum } else { 0.0 };
         Shares {
             coat_frame,
@@ -154,6 +183,7 @@ impl Principled {
             coat: of(coat),
             reflection: of((1.0 - coat) * reflection),
             diffuse: of((1.0 - coat) * diffuse),
+            diffuse_transmission: of((1.0 - coat) * diffuse_transmission),
             transmission: of((1.0 - coat) * transmission),
         }
     }
@@ -173,7 +203,7 @@ impl Principled {
         let (wo, local) = (frame.to_local(view.wo), frame.to_local(wi));
         let m = (wo + local).normalize();
         let Split { reflected, passed } = self.split(wo.dot(m), self.eta_of_reflection(view));
-        let mut value = self.base * (passed * (1.0 - self.transmission) * FRAC_1_PI * local.z);
+        let mut value = self.diffuse_base(view).back * (passed * FRAC_1_PI * local.z);
         let mut pdf = shares.diffuse * hemisphere_pdf(view, local.z);
         if !self.facets.are_smooth() {
             let (shadowed, density) = Self::mirror_terms(&self.facets, wo, local, m);
@@ -200,6 +230,30 @@ impl Principled {
         let (wo, local) = (shares.coat_frame.to_local(view.wo), shares.coat_frame.to_local(wi));
         let (shadowed, density) = Self::mirror_terms(&self.coat_facets, wo, local, (wo + local).normalize());
         Evaluation { value: Spectrum::grey((1.0 - shares.below_coat) * shadowed), pdf: shares.coat * density }
+    }
+
+    /// Directions within the denser medium are η² times as many as those outside that lead there, so there the share 1 − 1/η² of what would be
+    /// scattered on comes back: light is kept, and could go the other way.
+    fn diffuse_base(&self, view: &View) -> DiffuseBase {
+        let eta_squared = self.eta_of_reflection(view).powi(2);
+        let share = 1.0 - self.transmission;
+        let on = self.diffuse_transmission_color * (share * self.diffuse_transmission);
+        let back = self.base * (share * (1.0 - self.diffuse_transmission)) + on * (1.0 - eta_squared).max(0.0);
+        DiffuseBase { back, on: on * (1.0 / eta_squared).min(1.0) }
+    }
+
+    /// Light from the other side of the surface: what the diffuse base scatters on, and what the microfacets let through.
+    fn evaluate_far_side(&self, view: &View, wi: DVec3, shares: &Shares) -> Evaluation {
+        let mut sum = self.evaluate_transmission(view, wi, shares).unwrap_or_default();
+        if shares.diffuse_transmission > 0.0 {
+            let (wo, local) = (view.frame.to_local(view.wo), view.frame.to_local(wi));
+            let cosine = -local.z;
+            let m = (wo + local.with_z(cosine)).normalize();
+            let passed = self.split(wo.dot(m), self.eta_of_reflection(view)).passed * self.below_sheen(wo.z, cosine);
+            sum.value += self.diffuse_base(view).on * (shares.below_coat * passed * FRAC_1_PI * cosine);
+            sum.pdf += shares.diffuse_transmission * hemisphere_pdf(view, cosine);
+        }
+        sum
     }
 
     fn evaluate_transmission(&self, view: &View, wi: DVec3, shares: &Shares) -> Option<Evaluation> {
@@ -302,6 +356,8 @@ impl Scatter for Principled {
             specular: lookup.scalar(&written.specular),
             specular_color: lookup.color(&written.specular_color),
             transmission: lookup.scalar(&written.transmission),
+            diffuse_transmission: lookup.scalar(&written.diffuse_transmission),
+            diffuse_transmission_color: lookup.color(&written.diffuse_transmission_color),
             thin: written.thin,
             coat: lookup.scalar(&written.clearcoat),
             facets,
@@ -312,6 +368,7 @@ impl Scatter for Principled {
                 color: lookup.color(&written.sheen_color),
                 roughness: lookup.scalar(&written.sheen_roughness).max(SMALLEST_SHEEN_ROUGHNESS),
             },
+            film: ThinFilm::of(written.thin_film.as_ref(), lookup).map(|film| (film, lookup.scalar(&written.thin_film_share))),
             compensates: written.energy_compensation,
         })
     }
@@ -320,11 +377,15 @@ impl Scatter for Principled {
     fn sampling_weight(&self) -> f64 {
         let Split { reflected, passed } = self.split(1.0, 1.0);
         let coat = 0.04 * self.coat;
-        coat + (1.0 - coat) * (reflected + self.base * passed).max_component() + SHEEN_WEIGHT * self.sheen.color.max_component()
+        let scattered_on = (1.0 - self.transmission) * self.diffuse_transmission;
+        let base = self.base * (1.0 - scattered_on) + self.diffuse_transmission_color * scattered_on;
+        coat + (1.0 - coat) * (reflected + base * passed).max_component() + SHEEN_WEIGHT * self.sheen.color.max_component()
     }
 
     fn is_delta(&self) -> bool {
-        let diffuse = (1.0 - self.metallic) * (1.0 - self.transmission) * self.base.max_component();
+        let on = self.diffuse_transmission_color * self.diffuse_transmission;
+        let strongest = (self.base * (1.0 - self.diffuse_transmission)).max(on).max_component();
+        let diffuse = (1.0 - self.metallic) * (1.0 - self.transmission) * strongest;
         self.facets.are_smooth() && diffuse == 0.0 && self.sheen.is_none() && (self.coat == 0.0 || self.coat_facets.are_smooth())
     }
 
@@ -333,7 +394,7 @@ impl Scatter for Principled {
         let below = if view.reflects(wi) {
             self.evaluate_reflection(view, wi, &shares)
         } else if view.transmits(wi) {
-            self.evaluate_transmission(view, wi, &shares).unwrap_or_default()
+            self.evaluate_far_side(view, wi, &shares)
         } else {
             Evaluation::default()
         };
@@ -349,6 +410,8 @@ impl Scatter for Principled {
         let smooth = self.facets.are_smooth();
         let below_reflection = shares.coat + shares.reflection;
         let below_diffuse = below_reflection + shares.diffuse;
+        let below_diffuse_transmission = below_diffuse + shares.diffuse_transmission;
+        let far_side = shares.diffuse_transmission + shares.transmission;
         let is_coat = u_lobe < shares.coat;
         let wi = if is_coat {
             let frame = &shares.coat_frame;
@@ -363,8 +426,11 @@ impl Scatter for Principled {
                 return self.sample_delta(view, &shares, true);
             }
             reflected(&self.facets, &self.frame(view), view, u1, u2)
-        } else if u_lobe < below_diffuse || shares.transmission == 0.0 {
+        } else if u_lobe < below_diffuse || far_side == 0.0 {
             view.frame.to_world(sample_hemisphere(view, u1, u2))
+        } else if u_lobe < below_diffuse_transmission || shares.transmission == 0.0 {
+            let local = sample_hemisphere(view, u1, u2);
+            view.frame.to_world(local.with_z(-local.z))
         } else {
             if smooth {
                 return self.sample_delta(view, &shares, false);
@@ -372,9 +438,9 @@ impl Scatter for Principled {
             self.transmitted(view, u1, u2)?
         };
         // A facet that is seen from the other side would be taken for the other way.
-        let transmits = u_lobe >= below_diffuse && shares.transmission > 0.0;
+        let transmits = u_lobe >= below_diffuse && far_side > 0.0;
         let Evaluation { value, pdf } = self.evaluate(view, wi);
-        let eta = if transmits && !self.is_thin() { self.eta(view) } else { 1.0 };
+        let eta = if transmits && !self.is_thin() && self.transmission > 0.0 { self.eta(view) } else { 1.0 };
         let leaves_as_drawn = match (is_coat, transmits) {
             (true, _) => Self::coat_reflects(view, wi, &shares),
             (false, true) => view.transmits(wi),

@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::math::Frame;
 use crate::reference::intersect::{NormalTexel, Tangents, UvSet};
 use crate::scene::HemisphereSampling;
+use crate::spectrum::Spectrum;
 
 /// A shading normal on the side of the geometric one.
 fn towards(wo: DVec3, geometric_normal: DVec3, shading_normal: DVec3) -> DVec3 {
@@ -20,6 +21,8 @@ pub struct View {
     /// wo is on the surface's front side.
     pub front: bool,
     pub geometric_normal: DVec3,
+    /// What the path carries to the surface, its throughput.
+    carried: Spectrum,
     /// Around the shading normal.
     pub frame: Frame,
     /// How diffuse lobes are sampled.
@@ -44,6 +47,7 @@ impl View {
             wo,
             front,
             geometric_normal,
+            carried: Spectrum::WHITE,
             frame,
             hemisphere,
             tangents: None,
@@ -51,6 +55,16 @@ impl View {
             unbent_normal: None,
             coat_normal: None,
         }
+    }
+
+    pub fn with_carried(self, carried: Spectrum) -> Self {
+        Self { carried, ..self }
+    }
+
+    /// Each channel's share of what the path carries.
+    pub(super) fn carried_shares(&self) -> Spectrum {
+        let sum = self.carried.sum();
+        if sum > 0.0 { self.carried / sum } else { Spectrum::grey(1.0 / 3.0) }
     }
 
     pub fn with_unbent_normal(self, unbent_normal: Option<DVec3>) -> Self {

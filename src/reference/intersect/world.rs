@@ -15,6 +15,7 @@ use crate::emission_map::LampPart;
 use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::scene::{MaterialId, Scene, Shape};
+use crate::spectrum::Spectrum;
 use crate::texture::Coordinates;
 
 /// A ray's closest crossing.
@@ -48,6 +49,8 @@ pub struct Surface {
     pub second_tangents: Option<Tangents>,
     /// A ray of the camera met it that nothing has scattered.
     pub by_camera: bool,
+    /// What the path carries to it.
+    pub carried: Spectrum,
 }
 
 impl Surface {
@@ -328,6 +331,7 @@ impl World {
                     tangents: None,
                     second_tangents: None,
                     by_camera: false,
+                    carried: Spectrum::WHITE,
                 }
             }
         }
@@ -384,6 +388,7 @@ impl World {
             tangents,
             second_tangents,
             by_camera: false,
+            carried: Spectrum::WHITE,
         }
     }
 }

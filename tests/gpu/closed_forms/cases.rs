@@ -112,10 +112,14 @@ fn environments(cases: &mut Vec<Case>) {
     let kinds = [
         ("Lambert", MaterialKind::Diffuse { reflectance: input }, tint),
         ("mirror", MaterialKind::Mirror { reflectance: input }, tint),
-        ("glass 1.5", MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false }, Spectrum::WHITE),
+        (
+            "glass 1.5",
+            MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false, film: None },
+            Spectrum::WHITE,
+        ),
         (
             "glass 1/1.5",
-            MaterialKind::Glass { ior: 1.0 / 1.5, reflectance: one, transmittance: one, thin: false },
+            MaterialKind::Glass { ior: 1.0 / 1.5, reflectance: one, transmittance: one, thin: false, film: None },
             Spectrum::WHITE,
         ),
     ];

@@ -68,6 +68,7 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         fresnel: ConductorFresnel::Reflectance(constant(Spectrum::WHITE)),
         facets: Microfacets::ggx(ColorInput::grey(alpha)),
         specular_reflectance: ColorInput::grey(1.0),
+        film: None,
     };
     let (eta, k) = (Spectrum::new(0.18, 0.42, 1.37), Spectrum::new(3.42, 2.35, 1.77));
     let squared = |color: Spectrum| color * color;
@@ -77,9 +78,16 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         fresnel: ConductorFresnel::Complex { eta, k },
         facets: Microfacets::ggx(ColorInput::grey(0.0)),
         specular_reflectance: ColorInput::grey(1.0),
+        film: None,
     };
-    let glass =
-        |facets| MaterialKind::RoughGlass { ior: 1.5, facets, thin: false, reflectance: constant(a), transmittance: constant(b) };
+    let glass = |facets| MaterialKind::RoughGlass {
+        ior: 1.5,
+        facets,
+        thin: false,
+        reflectance: constant(a),
+        transmittance: constant(b),
+        film: None,
+    };
     let internal = 1.0 - (1.0 - 0.091_777_6) / 2.25;
     let plastic = |nonlinear| MaterialKind::Plastic {
         interface: PlasticInterface::smooth(1.5),
@@ -89,7 +97,7 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
     };
     let one = constant(Spectrum::WHITE);
     let facets = Microfacets::ggx(ColorInput::grey(1.0));
-    let rough_plate = MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: one, transmittance: one, thin: true };
+    let rough_plate = MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: one, transmittance: one, thin: true, film: None };
     let principled = |base: Spectrum, metallic: f64, roughness: f64, transmission: f64| {
         MaterialKind::Principled(Box::new(plain_principled(base, metallic, roughness, transmission)))
     };
@@ -121,7 +129,7 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         // Both boundaries reflect, and what goes to and fro between them: 2F/(1 + F).
         (
             "thin glass",
-            MaterialKind::Glass { ior: 1.5, reflectance: constant(a), transmittance: constant(b), thin: true },
+            MaterialKind::Glass { ior: 1.5, reflectance: constant(a), transmittance: constant(b), thin: true, film: None },
             (0.08 * a + 0.96 * b) / 1.04,
         ),
         // The light that meets one microfacet alone, and is not reflected, goes through.
@@ -298,7 +306,7 @@ fn blends_with_delta_lobes(cases: &mut Vec<Case>) {
     let (shiny, light, dark) = (mirror(&mut scene), diffuse(&mut scene, 0.6), diffuse(&mut scene, 0.2));
     let fresnel = ConductorFresnel::Reflectance(ColorInput::grey(1.0));
     let facets = Microfacets::ggx(ColorInput::grey(0.0));
-    let metal = MaterialKind::Conductor { fresnel, facets, specular_reflectance: ColorInput::grey(1.0) };
+    let metal = MaterialKind::Conductor { fresnel, facets, specular_reflectance: ColorInput::grey(1.0), film: None };
     let metal = material(&mut scene, metal, None);
     let inner = blend(&mut scene, dark, metal, half());
     let middle = blend(&mut scene, light, inner, BlendWeight::Constant { value: 0.4 });

@@ -48,7 +48,7 @@ pub use light::{
 };
 pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking,
-    Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
+    Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled, ThinFilm,
 };
 pub use media::{Filling, Media};
 pub use medium::{Medium, MediumId, Phase, PhaseKind, PhaseLobe};

@@ -131,13 +131,15 @@ fn everything() -> Scene {
     let channel =
         |texture, channel| ColorInput::Channel(ChannelInput { texture, channel, factor: Spectrum::grey(0.5), is_squared: false });
     let (grey, of) = (ColorInput::grey(0.5), ColorInput::Texture);
-    let rough = |facets| MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey, transmittance: grey, thin: false };
+    let rough =
+        |facets| MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey, transmittance: grey, thin: false, film: None };
     let plastic =
         |interface| MaterialKind::Plastic { interface, reflectance: of(0), specular_reflectance: grey, nonlinear: true };
     let brushed = MaterialKind::Conductor {
         fresnel: ConductorFresnel::Reflectance(grey),
         facets: Microfacets { alpha_v: Some(ColorInput::SquaredTexture(1)), ..Microfacets::ggx(of(2)) },
         specular_reflectance: of(3),
+        film: None,
     };
     let rough_interface = PlasticInterface::rough(1.5, 0.3, MicrofacetDistribution::Beckmann, Masking::Separable);
     let blend = |materials, weight| MaterialKind::Blend { materials, weight };

@@ -61,6 +61,7 @@ fn rough_glass_of_ior_one_is_not_there() {
         thin: false,
         reflectance: ColorInput::grey(1.0),
         transmittance: ColorInput::grey(1.0),
+        film: None,
     };
     let scene = Scene::default();
     let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false };

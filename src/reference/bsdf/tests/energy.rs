@@ -128,7 +128,7 @@ fn scattering_is_reciprocal() {
         }
         assert!(reflected > 500, "{name}: {reflected}");
         let transmits = match lobe {
-            Lobe::Principled(principled) => principled.transmission > 0.0,
+            Lobe::Principled(principled) => principled.transmission > 0.0 || principled.diffuse_transmission > 0.0,
             _ => lobe.kind().support() == LobeSupport::Sphere,
         };
         assert_eq!(transmitted > 100, transmits, "{name}: {transmitted}");

@@ -83,7 +83,7 @@ fn phong(diffuse: f64, specular: f64, exponent: f64) -> Lobe {
 /// Gold at about 630, 530 and 465 nm.
 fn gold(alpha: f64) -> Lobe {
     let fresnel = Fresnel::Complex { eta: Spectrum::new(0.18, 0.42, 1.37), k: Spectrum::new(3.42, 2.35, 1.77) };
-    Lobe::Conductor(Conductor { fresnel, facets: Facets::ggx(alpha), tint: Spectrum::WHITE })
+    Lobe::Conductor(Conductor { fresnel, facets: Facets::ggx(alpha), tint: Spectrum::WHITE, film: None })
 }
 
 /// A metal that reflects everything.
@@ -92,7 +92,7 @@ fn white_metal(alpha: f64) -> Lobe {
 }
 
 fn white_metal_of(facets: Facets) -> Lobe {
-    Lobe::Conductor(Conductor { fresnel: Fresnel::Schlick(Spectrum::WHITE), facets, tint: Spectrum::WHITE })
+    Lobe::Conductor(Conductor { fresnel: Fresnel::Schlick(Spectrum::WHITE), facets, tint: Spectrum::WHITE, film: None })
 }
 
 fn clear(ior: f64) -> Dielectric {

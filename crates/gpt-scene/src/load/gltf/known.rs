@@ -253,21 +253,20 @@ objects! {
         object("sheenRoughnessTexture", &TEXTURE_INFO),
     ];
     ANISOTROPY [read("anisotropyStrength"), read("anisotropyRotation"), object("anisotropyTexture", &TEXTURE_INFO)];
-    // These three are reported as a whole where they would show.
     IRIDESCENCE [
         read("iridescenceFactor"),
-        aside("iridescenceTexture"),
-        aside("iridescenceIor"),
-        aside("iridescenceThicknessMinimum"),
-        aside("iridescenceThicknessMaximum"),
-        aside("iridescenceThicknessTexture"),
+        object("iridescenceTexture", &TEXTURE_INFO),
+        read("iridescenceIor"),
+        read("iridescenceThicknessMinimum"),
+        read("iridescenceThicknessMaximum"),
+        object("iridescenceThicknessTexture", &TEXTURE_INFO),
     ];
     DISPERSION [read("dispersion")];
     DIFFUSE_TRANSMISSION [
         read("diffuseTransmissionFactor"),
-        aside("diffuseTransmissionTexture"),
-        aside("diffuseTransmissionColorFactor"),
-        aside("diffuseTransmissionColorTexture"),
+        object("diffuseTransmissionTexture", &TEXTURE_INFO),
+        read("diffuseTransmissionColorFactor"),
+        object("diffuseTransmissionColorTexture", &TEXTURE_INFO),
     ];
     SPECULAR_GLOSSINESS [
         read("diffuseFactor"),

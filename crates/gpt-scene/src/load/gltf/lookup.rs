@@ -11,9 +11,11 @@ use super::json::{Material, SpecularGlossiness, TextureInfo, TextureTransform, e
 use super::made::Coordinates;
 
 /// Textures of extensions that materials are made of.
-const OF_EXTENSIONS: [(&str, &[&str]); 5] = [
+const OF_EXTENSIONS: [(&str, &[&str]); 7] = [
     ("KHR_materials_specular", &["specularTexture", "specularColorTexture"]),
     ("KHR_materials_transmission", &["transmissionTexture"]),
+    ("KHR_materials_diffuse_transmission", &["diffuseTransmissionTexture", "diffuseTransmissionColorTexture"]),
+    ("KHR_materials_iridescence", &["iridescenceTexture", "iridescenceThicknessTexture"]),
     ("KHR_materials_clearcoat", &["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]),
     ("KHR_materials_anisotropy", &["anisotropyTexture"]),
     ("KHR_materials_sheen", &["sheenColorTexture", "sheenRoughnessTexture"]),

@@ -22,9 +22,12 @@ use crate::spectrum::Spectrum;
 /// Index of refraction where nothing is said, and the largest that scene files have.
 const IOR: f64 = 1.5;
 const LARGEST_IOR: f64 = 10.0;
+/// Largest thickness of a film in nanometres that is read.
+const LARGEST_THICKNESS: f64 = 1e6;
 const GLOSSY: &str = "KHR_materials_pbrSpecularGlossiness";
 const SPECULAR: &str = "KHR_materials_specular";
 const VOLUME: &str = "KHR_materials_volume";
+const DIFFUSE_TRANSMISSION: &str = "KHR_materials_diffuse_transmission";
 
 impl Importer<'_> {
     /// The material of a primitive; None for the one that the specification gives where none is named.
@@ -251,13 +254,20 @@ impl Surface<'_, '_> {
         const CLEARCOAT: &str = "KHR_materials_clearcoat";
         const ANISOTROPY: &str = "KHR_materials_anisotropy";
         const SHEEN: &str = "KHR_materials_sheen";
+        const TRANSMITTED: [&str; 4] = [
+            "diffuseTransmissionFactor",
+            "diffuseTransmissionTexture",
+            "diffuseTransmissionColorFactor",
+            "diffuseTransmissionColorTexture",
+        ];
         let BaseLayer { metallic, roughness, ior, specular, specular_color } = self.base_layer()?;
         let transmission = self.factor(TRANSMISSION, "transmissionFactor", 0.0, "transmissionTexture", Channel::R)?;
+        let scattered_on = self.factor(DIFFUSE_TRANSMISSION, TRANSMITTED[0], 0.0, TRANSMITTED[1], Channel::A)?;
         let clearcoat = self.factor(CLEARCOAT, "clearcoatFactor", 0.0, "clearcoatTexture", Channel::R)?;
         let sheen = self.tint(SHEEN, "sheenColorFactor", Spectrum::BLACK, [1.0, 1.0], "sheenColorTexture")?;
         let place = self.place();
         let has_sheen = sheen != Input::grey(0.0);
-        if !has_sheen && [&metallic, &transmission, &specular, &clearcoat].into_iter().all(|share| share.is(0.0)) {
+        if !has_sheen && [&metallic, &transmission, &specular, &clearcoat, &scattered_on].into_iter().all(|share| share.is(0.0)) {
             let reflectance = base.colour(&place)?;
             return Ok(MaterialEntry::Diffuse(diffuse::Keys { reflectance, ..Default::default() }));
         }
@@ -277,11 +287,17 @@ impl Surface<'_, '_> {
         if !transmission.is(0.0) {
             keys.transmission = Some(transmission.scalar(&place)?);
             // A surface without volume is a sheet without thickness.
-            if self.has_volume() {
-                self.attenuation(&mut keys)?;
-            } else {
+            if !self.has_volume() {
                 keys.thin = Some(place.at(true));
             }
+        }
+        if !scattered_on.is(0.0) {
+            let tint = self.tint(DIFFUSE_TRANSMISSION, TRANSMITTED[2], Spectrum::WHITE, [1.0, 1.0], TRANSMITTED[3])?;
+            keys.diffuse_transmission = Some(Box::new(scattered_on.scalar(&place)?));
+            keys.diffuse_transmission_color = Some(place.at(tint.colour(&place)?));
+        }
+        if self.has_volume() {
+            self.attenuation(&mut keys)?;
         }
         if has_sheen {
             let roughness = self.factor(SHEEN, "sheenRoughnessFactor", 0.0, "sheenRoughnessTexture", Channel::A)?;
@@ -310,7 +326,49 @@ impl Surface<'_, '_> {
             // Directions follow texture coordinates.
             self.coordinates.get_or_insert(Coordinates { set: 0, map: DAffine2::IDENTITY, second: None });
         }
+        self.iridescence(&mut keys)?;
         Ok(MaterialEntry::Principled(keys))
+    }
+
+    /// A thin film (KHR_materials_iridescence).
+    fn iridescence(&mut self, keys: &mut principled::Keys) -> Result<(), String> {
+        const IRIDESCENCE: &str = "KHR_materials_iridescence";
+        const TEXTURE: &str = "iridescenceThicknessTexture";
+        let share = self.factor(IRIDESCENCE, "iridescenceFactor", 0.0, "iridescenceTexture", Channel::R)?;
+        if share.is(0.0) {
+            return Ok(());
+        }
+        let mut nanometres = |key: &str, default: f64| {
+            let written = self.number(IRIDESCENCE, key, default);
+            self.within(written, [0.0, LARGEST_THICKNESS], key)
+        };
+        let [least, most] = [nanometres("iridescenceThicknessMinimum", 100.0), nanometres("iridescenceThicknessMaximum", 400.0)];
+        let ior = self.number(IRIDESCENCE, "iridescenceIor", 1.3);
+        let ior = self.within(ior, [1.0, LARGEST_IOR], "iridescenceIor");
+        let place = self.place();
+        let (thickness, offset) = match self.texture_of(IRIDESCENCE, TEXTURE)? {
+            Some(info) if least < most => {
+                let map = self.lookup(&info, TextureRole::Numbers, TEXTURE, None)?;
+                (Share { map: Some((map, Channel::G)), factor: most - least }, least)
+            }
+            Some(_) if least > most => {
+                self.approximate(
+                    "iridescenceThicknessMinimum above the maximum",
+                    "the film is as thick as the maximum everywhere",
+                );
+                (Share::constant(most), 0.0)
+            }
+            _ => (Share::constant(most), 0.0),
+        };
+        if keys.clearcoat.is_some() {
+            self.approximate("KHR_materials_iridescence below a clear coat", "the film reflects as it does in air");
+        }
+        keys.thin_film = Some(place.at(share.scalar(&place)?));
+        keys.thin_film_thickness = Some(place.at(thickness.scalar(&place)?));
+        keys.thin_film_offset =
+            Some(offset).filter(|offset| *offset != 0.0).map(Checked::of).transpose()?.map(|offset| place.at(offset));
+        keys.thin_film_ior = Some(place.at(Checked::of(ior)?));
+        Ok(())
     }
 
     /// A factor of an extension, times a channel of its texture.
@@ -351,8 +409,9 @@ impl Surface<'_, '_> {
 
     /// A medium fills the body that it encloses. Both sides of such a surface are there (KHR_materials_volume).
     fn has_volume(&self) -> bool {
-        let transmission = self.number("KHR_materials_transmission", "transmissionFactor", 0.0);
-        transmission > 0.0 && self.number(VOLUME, "thicknessFactor", 0.0) > 0.0
+        let lets_light_in = self.number("KHR_materials_transmission", "transmissionFactor", 0.0) > 0.0
+            || self.number(DIFFUSE_TRANSMISSION, "diffuseTransmissionFactor", 0.0) > 0.0;
+        lets_light_in && self.number(VOLUME, "thicknessFactor", 0.0) > 0.0
     }
 
     /// Attenuation within a volume. Without a distance, or white, there is none.
@@ -405,11 +464,7 @@ impl Surface<'_, '_> {
 
     /// Names what of known extensions has no effect.
     fn report_extensions(&mut self) {
-        const PARTS: [(&str, &str, &str); 3] = [
-            ("KHR_materials_iridescence", "iridescenceFactor", "there is no thin film"),
-            ("KHR_materials_dispersion", "dispersion", "all colours are bent alike"),
-            ("KHR_materials_diffuse_transmission", "diffuseTransmissionFactor", "light does not come through"),
-        ];
+        const PARTS: [(&str, &str, &str); 1] = [("KHR_materials_dispersion", "dispersion", "all colours are bent alike")];
         for (name, key, instead) in PARTS {
             if self.number(name, key, 0.0) != 0.0 {
                 self.drop(name, instead);

@@ -6,6 +6,7 @@ use super::parameters::{self, ParameterType, place};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
 use super::principled::Principled;
 use super::table::{LobeKind, MaterialId, material_table};
+use super::thin_film::ThinFilm;
 use crate::scene::texture::ColorInput;
 use crate::spectrum::Spectrum;
 
@@ -20,15 +21,25 @@ pub enum MaterialKind {
     Glossy { reflectance: ColorInput, exponent: ColorInput },
     /// Modified Phong (Lafortune and Willems 1994).
     Phong { diffuse: ColorInput, specular: ColorInput, exponent: ColorInput },
+    /// A sheet that Lambert's law holds for on both sides: f = ρ/π for light from the side that is seen, τ/π for light from the other one.
+    /// Where ρ + τ is more than 1, both are divided by it.
+    DiffuseTransmission { reflectance: ColorInput, transmittance: ColorInput },
     /// Smooth dielectric with exact Fresnel equations. `ior` is inside over outside, the outside being where the normal points; a `thin` one
-    /// is a plate of both boundaries, which light crosses without changing its direction.
-    Glass { ior: f64, reflectance: ColorInput, transmittance: ColorInput, thin: bool },
-    /// Rough dielectric; of a `thin` one every microfacet is a thin plate.
-    RoughGlass { ior: f64, facets: Microfacets, reflectance: ColorInput, transmittance: ColorInput, thin: bool },
+    /// is a plate of both boundaries, which light crosses without changing its direction. Glass with a `film` is not `thin`.
+    Glass { ior: f64, reflectance: ColorInput, transmittance: ColorInput, thin: bool, film: Option<ThinFilm> },
+    /// Rough dielectric; of a `thin` one every microfacet is a thin plate. Glass with a `film` is not `thin`, nor of Phong's distribution.
+    RoughGlass {
+        ior: f64,
+        facets: Microfacets,
+        reflectance: ColorInput,
+        transmittance: ColorInput,
+        thin: bool,
+        film: Option<ThinFilm>,
+    },
     /// A diffuse base below a dielectric surface; `nonlinear` takes account of how the colour deepens as light goes up and down within.
     Plastic { interface: PlasticInterface, reflectance: ColorInput, specular_reflectance: ColorInput, nonlinear: bool },
     /// Conductor of microfacets, smooth where their width is 0. What it reflects is multiplied by `specular_reflectance`.
-    Conductor { fresnel: ConductorFresnel, facets: Microfacets, specular_reflectance: ColorInput },
+    Conductor { fresnel: ConductorFresnel, facets: Microfacets, specular_reflectance: ColorInput, film: Option<ThinFilm> },
     /// The material of glTF 2.0's Appendix B.
     Principled(Box<Principled>),
     /// Reflects nothing; what it emits is the material's `emission`.
@@ -92,6 +103,10 @@ pub const SHEEN: u32 = 512;
 pub const COAT_NORMAL_MAP: u32 = 2048;
 /// The direction in which microfacets are wider comes from a texture.
 pub const DIRECTED: u32 = 4096;
+/// The diffuse base lets light through.
+pub const DIFFUSE_TRANSMITS: u32 = 8192;
+/// A film on the surface makes light interfere.
+pub const THIN_FILM: u32 = 16384;
 /// All of these.
 pub const FORMS: u32 = COMPLEX_FRESNEL
     | BECKMANN
@@ -104,7 +119,9 @@ pub const FORMS: u32 = COMPLEX_FRESNEL
     | COMPENSATED
     | SHEEN
     | COAT_NORMAL_MAP
-    | DIRECTED;
+    | DIRECTED
+    | DIFFUSE_TRANSMITS
+    | THIN_FILM;
 
 /// Entries that the transmittance of rough plastic takes.
 const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
@@ -146,12 +163,32 @@ impl MaterialKind {
                 roughness: Some(exponent),
                 ..LobeParameters::new(LobeKind::Phong, diffuse)
             },
-            Self::Glass { ior, reflectance, transmittance, thin } => LobeParameters {
+            Self::DiffuseTransmission { reflectance, transmittance } => {
+                LobeParameters { color1: Some(transmittance), ..LobeParameters::new(LobeKind::DiffuseTransmission, reflectance) }
+            }
+            Self::Glass { ior, reflectance, transmittance, thin: _, film: Some(film) } => {
+                spectral_glass(Spectrum::grey(ior), Some(film), [reflectance, transmittance], ior)
+            }
+            Self::Glass { ior, reflectance, transmittance, thin, film: None } => LobeParameters {
                 color1: Some(transmittance),
                 ior: Some(ior),
                 ..LobeParameters::new(if thin { LobeKind::ThinGlass } else { LobeKind::Glass }, reflectance)
             },
-            Self::RoughGlass { ior, facets, reflectance, transmittance, thin } => {
+            Self::RoughGlass { ior, facets, reflectance, transmittance, thin: _, film: Some(film) } => {
+                let glass = spectral_glass(Spectrum::grey(ior), Some(film), [reflectance, transmittance], ior);
+                if facets.are_smooth() {
+                    return Some(LobeParameters { roughness: Some(facets.alpha), ..glass });
+                }
+                let [thickness, film] = further_of_film(Some(film));
+                let further = parameters::RoughSpectralGlass {
+                    iors: ColorInput::grey(ior),
+                    width_across: facets.alpha_v.unwrap_or(facets.alpha),
+                    thin_film_thickness: thickness,
+                    thin_film: film,
+                };
+                LobeParameters { lobe: LobeKind::RoughSpectralGlass, further: further.list(), ..glass }.with_facets(&facets)
+            }
+            Self::RoughGlass { ior, facets, reflectance, transmittance, thin, film: None } => {
                 let lobe = match (facets.distribution, thin) {
                     (MicrofacetDistribution::Phong, _) => LobeKind::PhongGlass,
                     (_, true) if facets.are_smooth() => LobeKind::ThinGlass,
@@ -192,17 +229,22 @@ impl MaterialKind {
                 }
                 .with_facets(&facets)
             }
-            Self::Conductor { ref fresnel, facets, specular_reflectance } => {
+            Self::Conductor { ref fresnel, facets, specular_reflectance, film } => {
                 let (form, color0, color1) = match *fresnel {
                     ConductorFresnel::Complex { eta, k } => {
                         (COMPLEX_FRESNEL, ColorInput::Constant(eta), Some(ColorInput::Constant(k)))
                     }
                     ConductorFresnel::Reflectance(reflectance) => (0, reflectance, None),
                 };
+                let form = form | form_of_film(film);
                 let has_defaults = facets.alpha_v.is_none() && specular_reflectance == ColorInput::grey(1.0);
                 let width_across = facets.alpha_v.unwrap_or(facets.alpha);
-                let further = parameters::Conductor { width_across, specular_reflectance }.list();
-                let further = if has_defaults { Vec::new() } else { further };
+                let [thin_film_thickness, thin_film] = further_of_film(film);
+                let mut further =
+                    parameters::Conductor { width_across, specular_reflectance, thin_film_thickness, thin_film }.list();
+                if film.is_none() {
+                    further.truncate(if has_defaults { 0 } else { FURTHER_OF_PLAIN_CONDUCTOR });
+                }
                 LobeParameters { form, color1, further, ..LobeParameters::new(LobeKind::Conductor, color0) }.with_facets(&facets)
             }
             Self::Principled(ref principled) => principled.lobe(),
@@ -212,12 +254,40 @@ impl MaterialKind {
     }
 }
 
+/// Smooth glass whose channels are not reflected or bent alike.
+fn spectral_glass(iors: Spectrum, film: Option<ThinFilm>, colors: [ColorInput; 2], ior: f64) -> LobeParameters {
+    let [thin_film_thickness, thin_film] = further_of_film(film);
+    let further = parameters::SpectralGlass { iors: ColorInput::Constant(iors), thin_film_thickness, thin_film };
+    LobeParameters {
+        form: form_of_film(film),
+        color1: Some(colors[1]),
+        ior: Some(ior),
+        further: further.list(),
+        ..LobeParameters::new(LobeKind::SpectralGlass, colors[0])
+    }
+}
+
+/// The thickness of a film, and its index of refraction with what is added to the thickness.
+fn further_of_film(film: Option<ThinFilm>) -> [ColorInput; 2] {
+    let film = film.unwrap_or(ThinFilm { thickness: ColorInput::grey(0.0), offset: 0.0, ior: 1.0 });
+    [film.thickness, ColorInput::Constant(Spectrum::new(film.ior, film.offset, 0.0))]
+}
+
+fn form_of_film(film: Option<ThinFilm>) -> u32 {
+    if film.is_some() { THIN_FILM } else { 0 }
+}
+
+/// The number of further parameters of a conductor without a film, where it has some.
+const FURTHER_OF_PLAIN_CONDUCTOR: usize = place!(Conductor.specular_reflectance) + 1;
+
 /// The place of the texels of its coat's normals.
 pub const COAT_TEXEL_PARAMETER: usize = place!(Principled.coat_texel);
 
 /// The number of further parameters of the principled lobe in a form.
 fn further_of_principled(form: u32) -> usize {
     let last = match form {
+        form if form & THIN_FILM != 0 => place!(Principled.thin_film),
+        form if form & DIFFUSE_TRANSMITS != 0 => place!(Principled.diffuse_transmission_color),
         form if form & DIRECTED != 0 => place!(Principled.direction_texel),
         form if form & COAT_NORMAL_MAP != 0 => place!(Principled.coat_scale),
         form if form & SHEEN != 0 => place!(Principled.sheen_roughness),
@@ -238,7 +308,10 @@ impl Principled {
             | if self.energy_compensation { COMPENSATED } else { 0 }
             | if self.sheen_color == zero { 0 } else { SHEEN }
             | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 }
-            | if direction.is_some() { DIRECTED } else { 0 };
+            | if direction.is_some() { DIRECTED } else { 0 }
+            | if self.diffuse_transmission == zero { 0 } else { DIFFUSE_TRANSMITS }
+            | form_of_film(self.thin_film);
+        let [thin_film_thickness, thin_film] = further_of_film(self.thin_film);
         let mut further = parameters::Principled {
             metallic: self.metallic,
             specular: self.specular,
@@ -252,6 +325,11 @@ impl Principled {
             coat_texel: self.coat_normal_map.map_or(zero, |map| ColorInput::Texture(map.texture)),
             coat_scale: self.coat_normal_map.map_or(zero, |map| ColorInput::grey(map.scale)),
             direction_texel: direction.map_or(zero, ColorInput::Texture),
+            diffuse_transmission: self.diffuse_transmission,
+            diffuse_transmission_color: self.diffuse_transmission_color,
+            thin_film_share: self.thin_film_share,
+            thin_film_thickness,
+            thin_film,
         }
         .list();
         further.truncate(further_of_principled(form));
@@ -276,6 +354,7 @@ impl LobeKind {
     pub fn further_counts(self, form: u32) -> [usize; 2] {
         match self {
             Self::Principled => [further_of_principled(form), 0],
+            Self::Conductor if form & THIN_FILM == 0 => [FURTHER_OF_PLAIN_CONDUCTOR, 0],
             Self::RoughPlastic => [self.parameters().len(), TRANSMITTANCE_ENTRIES],
             _ => [self.parameters().len(), 0],
         }

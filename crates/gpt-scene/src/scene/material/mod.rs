@@ -8,15 +8,16 @@ mod parameters;
 mod plastic;
 pub mod principled;
 mod table;
+pub mod thin_film;
 
 pub use albedo::{
     ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, FACET_KNEE, SHEEN_KNEE, SMALLEST_SHEEN_ROUGHNESS, sheen_distribution, sheen_lambda,
 };
 pub use blend_weight::BlendWeight;
 pub use kind::{
-    ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel, DIRECTED,
-    FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL,
-    TRANSMITS,
+    ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
+    DIFFUSE_TRANSMITS, DIRECTED, FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND,
+    SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use parameters::{Parameter, ParameterType};
@@ -25,6 +26,8 @@ pub use principled::{Attenuation, CoatNormalMap, Principled};
 #[doc(hidden)]
 pub use table::material_table;
 pub use table::{LobeKind, LobeSupport, MaterialId};
+
+pub use thin_film::ThinFilm;
 
 use super::medium::MediumId;
 use super::texture::{ColorInput, TextureId};

@@ -3,6 +3,7 @@
 use crate::spectrum::Spectrum;
 
 use super::microfacets::Masking;
+use super::thin_film::ThinFilm;
 use crate::scene::texture::{ColorInput, TextureId};
 
 /// Largest share of the base's samples that the surface's reflection takes: facets that are turned away from the normal let
@@ -29,6 +30,9 @@ pub struct Principled {
     pub specular_color: ColorInput,
     /// Share of the dielectric's base that lets light through instead of scattering it back.
     pub transmission: ColorInput,
+    /// Share of the diffuse base that sends light on to the other side instead of back, and the colour by which it does.
+    pub diffuse_transmission: ColorInput,
+    pub diffuse_transmission_color: ColorInput,
     /// True for a wall without thickness, which lets light through without bending it.
     pub thin: bool,
     /// The attenuation behind the surface; None where nothing takes light.
@@ -47,6 +51,9 @@ pub struct Principled {
     pub anisotropy_direction: Option<TextureId>,
     /// The angle of that direction, from the one in which texture coordinate u grows towards that of v.
     pub anisotropy_rotation_degrees: f64,
+    /// A film on the surface, below the coat and the fibres, and the share of the surface that it covers.
+    pub thin_film: Option<ThinFilm>,
+    pub thin_film_share: ColorInput,
     pub masking: Masking,
     /// Light that microfacets send to each other is not lost.
     pub energy_compensation: bool,

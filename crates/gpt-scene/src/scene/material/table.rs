@@ -22,11 +22,22 @@ macro_rules! material_table {
             Mirror mirror { Mirror mirror MIRROR Delta }
             Glossy glossy { Glossy glossy GLOSSY Hemisphere }
             Phong phong { Phong phong PHONG Hemisphere }
-            Glass glass { Glass glass GLASS Delta ThinGlass thin_glass THIN_GLASS Delta }
+            DiffuseTransmission diffuse_transmission { DiffuseTransmission diffuse_transmission DIFFUSE_TRANSMISSION Sphere }
+            Glass glass {
+                Glass glass GLASS Delta
+                ThinGlass thin_glass THIN_GLASS Delta
+                SpectralGlass spectral_glass SPECTRAL_GLASS Delta [
+                    iors: Color, thin_film_thickness: Scalar = "0.0", thin_film: Vector = "vec3<f32>(1.0, 0.0, 0.0)"
+                ]
+            }
             RoughGlass rough_glass {
                 RoughGlass rough_glass ROUGH_GLASS Sphere [width_across: Scalar = "lobe.roughness"]
                 PhongGlass phong_glass PHONG_GLASS Sphere
                 RoughThinGlass rough_thin_glass ROUGH_THIN_GLASS Sphere [width_across: Scalar = "lobe.roughness"]
+                RoughSpectralGlass rough_spectral_glass ROUGH_SPECTRAL_GLASS Sphere [
+                    iors: Color, width_across: Scalar = "lobe.roughness",
+                    thin_film_thickness: Scalar = "0.0", thin_film: Vector = "vec3<f32>(1.0, 0.0, 0.0)"
+                ]
             }
             Plastic plastic {
                 Plastic plastic PLASTIC Hemisphere [internal_reflectance: Scalar]
@@ -34,7 +45,8 @@ macro_rules! material_table {
             }
             Conductor conductor {
                 Conductor conductor CONDUCTOR Hemisphere [
-                    width_across: Scalar = "lobe.roughness", specular_reflectance: Color = "WHITE"
+                    width_across: Scalar = "lobe.roughness", specular_reflectance: Color = "WHITE",
+                    thin_film_thickness: Scalar = "0.0", thin_film: Vector = "vec3<f32>(1.0, 0.0, 0.0)"
                 ]
             }
             Principled principled {
@@ -43,7 +55,10 @@ macro_rules! material_table {
                     anisotropy: Scalar, rotation: Vector,
                     sheen_color: Color = "BLACK", sheen_roughness: Scalar = "0.0",
                     coat_texel: Vector = "vec3<f32>(0.0)", coat_scale: SignedScalar = "0.0",
-                    direction_texel: Vector = "vec3<f32>(0.0)"
+                    direction_texel: Vector = "vec3<f32>(0.0)",
+                    diffuse_transmission: Scalar = "0.0", diffuse_transmission_color: Color = "BLACK",
+                    thin_film_share: Scalar = "0.0",
+                    thin_film_thickness: Scalar = "0.0", thin_film: Vector = "vec3<f32>(1.0, 0.0, 0.0)"
                 ]
             }
             Emissive emissive {}

@@ -66,11 +66,12 @@ fn scene() -> Scene {
     }
     let grey = ColorInput::grey(0.5);
     let textured = MaterialKind::Diffuse { reflectance: ColorInput::Texture(0) };
-    let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey, thin: false };
+    let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey, thin: false, film: None };
     let metal = MaterialKind::Conductor {
         fresnel: ConductorFresnel::Complex { eta: Spectrum::WHITE, k: Spectrum::WHITE },
         facets: Microfacets::ggx(grey),
         specular_reflectance: grey,
+        film: None,
     };
     let weight = BlendWeight::Reverse { of: Box::new(BlendWeight::Texture { texture: 1 }) };
     let blend = MaterialKind::Blend { materials: [1, 2], weight };
@@ -211,7 +212,8 @@ fn each_mistake_is_named_with_its_part() {
         (
             |s| {
                 let white = ColorInput::grey(1.0);
-                s.materials[2].kind = MaterialKind::Glass { ior: 0.0, reflectance: white, transmittance: white, thin: false };
+                s.materials[2].kind =
+                    MaterialKind::Glass { ior: 0.0, reflectance: white, transmittance: white, thin: false, film: None };
             },
             "material `glass`: the index of refraction must be positive",
         ),
@@ -222,6 +224,7 @@ fn each_mistake_is_named_with_its_part() {
                     fresnel,
                     facets: Microfacets::ggx(ColorInput::grey(0.1)),
                     specular_reflectance: ColorInput::grey(1.0),
+                    film: None,
                 };
             },
             "material `metal`: a colour, or a complex index of refraction",

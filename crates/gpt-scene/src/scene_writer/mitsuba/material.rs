@@ -23,6 +23,12 @@ impl<'w> Writer<'w> {
         let name = text(material, "name").unwrap_or_default().to_owned();
         let place = format!("material `{name}`");
         let bsdf = self.bsdf(material, &place)?;
+        if material.contains_key("thin_film_thickness") {
+            self.drop("thin_film_thickness", &place, "there is no film");
+        }
+        if material.contains_key("diffuse_transmission") {
+            self.drop("diffuse_transmission", &place, "light does not come through");
+        }
         let kind = text(material, "type").unwrap_or_default();
         let is_transparent = ["glass", "rough_glass", "pass"].contains(&kind);
         let is_shadowed = flag(material, "normal_shadowing") == Some(true);

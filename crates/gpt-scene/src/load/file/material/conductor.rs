@@ -5,11 +5,12 @@ use serde::Deserialize;
 
 use super::keys::{MaterialKeys, material_keys};
 use super::roughness::{DistributionEntry, FacetKeys, MaskingEntry, write_facets};
+use super::thin_film::{ThinFilmKeys, write_thin_film};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Rgb, Scalar};
 use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Fraction, Located, NonNegative, Positive};
+use crate::load::file::value::{Checked, FilmIndex, Fraction, Located, NonNegative, Positive};
 use crate::load::file::writer::{Writer, colour, line};
 use crate::scene::{ColorInput, ConductorFresnel, MaterialKind, Microfacets};
 use crate::spectrum::Spectrum;
@@ -28,6 +29,7 @@ material_keys! {
         ] } },
         { "dependentRequired": {
             "alpha_u": ["alpha_v"], "alpha_v": ["alpha_u"], "roughness_u": ["roughness_v"], "roughness_v": ["roughness_u"],
+            "thin_film_offset": ["thin_film_thickness"], "thin_film_ior": ["thin_film_thickness"],
         } },
         {
             "if": { "anyOf": [{ "required": ["distribution"] }, { "required": ["masking"] }] },
@@ -61,6 +63,12 @@ material_keys! {
         distribution: Option<Located<DistributionEntry>>,
         /// "height_correlated" when left out.
         masking: Option<Located<MaskingEntry>>,
+        /// Thickness of a film on the surface in nanometres, which makes light interfere; no film when left out.
+        thin_film_thickness: Option<Located<Scalar<NonNegative>>>,
+        /// Nanometres that are added to the thickness, which is that much where its texture is 0.
+        thin_film_offset: Option<Located<Checked<NonNegative>>>,
+        /// Index of refraction of the film over that outside, 1.3 when left out.
+        thin_film_ior: Option<Located<Checked<FilmIndex>>>,
     }
 }
 
@@ -84,6 +92,8 @@ impl MaterialKeys for Keys {
         "preset = \"aluminium\"\nalpha_u = 0.6\nalpha_v = 0.15\nmasking = \"separable\"",
         "reflectance = [0.9, 0.6, 0.3]\nroughness_u = 0.3\nroughness_v = 0.8\ndistribution = \"beckmann\"\nmasking = \"separable\"",
         "preset = \"copper\"\nroughness = 0.4\ntwo_sided = false",
+        "preset = \"silver\"\nroughness = 0.4\nthin_film_thickness = 350\nthin_film_ior = 1.5",
+        "reflectance = [0.9, 0.6, 0.3]\nthin_film_thickness = 150\nthin_film_offset = 100\nthin_film_ior = 1.8",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -104,15 +114,21 @@ impl MaterialKeys for Keys {
             distribution: self.distribution.as_ref(),
             masking: self.masking.as_ref(),
         };
+        let film = ThinFilmKeys {
+            thickness: self.thin_film_thickness.as_ref(),
+            offset: self.thin_film_offset.as_ref(),
+            ior: self.thin_film_ior.as_ref(),
+        };
         Ok(MaterialKind::Conductor {
             fresnel,
             facets: facets.resolve(resolver)?.unwrap_or(Microfacets::ggx(ColorInput::grey(0.0))),
             specular_reflectance: resolver.colour_or_white(&self.specular_reflectance)?,
+            film: film.resolve(resolver)?,
         })
     }
 
     fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
-        let MaterialKind::Conductor { fresnel, facets, specular_reflectance } = kind else { return String::new() };
+        let MaterialKind::Conductor { fresnel, facets, specular_reflectance, film } = kind else { return String::new() };
         let fresnel = match fresnel {
             ConductorFresnel::Complex { eta, k } => line("eta", &colour(*eta)) + &line("k", &colour(*k)),
             ConductorFresnel::Reflectance(reflectance) => writer.input("reflectance", reflectance),
@@ -122,7 +138,10 @@ impl MaterialKeys for Keys {
             false => writer.input("specular_reflectance", specular_reflectance),
         };
         let is_smooth = *facets == Microfacets::ggx(ColorInput::grey(0.0));
-        fresnel + &if is_smooth { line("alpha", "0") } else { write_facets(facets, writer) } + &factor
+        fresnel
+            + &if is_smooth { line("alpha", "0") } else { write_facets(facets, writer) }
+            + &factor
+            + &write_thin_film(film.as_ref(), writer)
     }
 }
 

@@ -4,6 +4,7 @@ pub mod blend;
 pub mod blend_weight;
 pub mod conductor;
 pub mod diffuse;
+pub mod diffuse_transmission;
 pub mod emissive;
 pub mod glass;
 pub mod glossy;
@@ -16,6 +17,7 @@ pub mod plastic;
 pub mod principled;
 pub mod rough_glass;
 pub mod roughness;
+pub mod thin_film;
 
 use schemars::JsonSchema;
 use serde::Deserialize;

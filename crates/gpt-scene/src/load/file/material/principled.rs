@@ -2,11 +2,12 @@
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::MaskingEntry;
+use super::thin_film::{ThinFilmKeys, write_thin_film};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Rgb, Scalar};
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number, Positive};
+use crate::load::file::value::{Checked, FilmIndex, Fraction, IndexOfRefraction, Located, NonNegative, Number, Positive};
 use crate::load::file::writer::{self, Writer, flag, line, number};
 use crate::load::place::Place;
 use crate::scene::{Attenuation, CoatNormalMap, ColorInput, Masking, MaterialKind, Principled};
@@ -14,7 +15,7 @@ use crate::spectrum::Spectrum;
 
 material_keys! {
     /// The metallic-roughness material of glTF 2.0 (Appendix B) with its extensions for the index of refraction, specular, transmission,
-    /// volume, clearcoat, sheen and anisotropy.
+    /// volume, clearcoat, sheen, anisotropy, diffuse transmission and iridescence.
     #[schemars(extend("allOf" = [
         { "dependentRequired": {
             "anisotropy_rotation": ["anisotropy"],
@@ -24,9 +25,17 @@ material_keys! {
             "coat_normal_map": ["clearcoat"],
             "coat_normal_scale": ["coat_normal_map"],
             "sheen_roughness": ["sheen_color"],
-            "attenuation_color": ["attenuation_distance", "transmission"],
+            "attenuation_color": ["attenuation_distance"],
             "attenuation_distance": ["attenuation_color"],
+            "diffuse_transmission_color": ["diffuse_transmission"],
+            "thin_film": ["thin_film_thickness"],
+            "thin_film_offset": ["thin_film_thickness"],
+            "thin_film_ior": ["thin_film_thickness"],
         } },
+        {
+            "if": { "required": ["attenuation_color"] },
+            "then": { "anyOf": [{ "required": ["transmission"] }, { "required": ["diffuse_transmission"] }] },
+        },
         { "not": { "required": ["attenuation_color", "thin"], "properties": { "thin": { "const": true } } } },
     ]))]
     {
@@ -44,6 +53,10 @@ material_keys! {
         specular_color: Option<Colour<NonNegative>>,
         /// Share of light that goes through the dielectric's base instead of being scattered back; 0 when left out.
         transmission: Option<Scalar<Fraction>>,
+        /// Share of the light that the diffuse base would scatter back and scatters on instead, behind the surface; 0 when left out.
+        diffuse_transmission: Option<Box<Scalar<Fraction>>>,
+        /// The colour by which it does, 1 when left out.
+        diffuse_transmission_color: Option<Located<Colour<Fraction>>>,
         /// Light goes through a wall without thickness, which does not bend it.
         thin: Option<Located<bool>>,
         /// Share of light left after `attenuation_distance` within the volume that the surface encloses.
@@ -68,6 +81,14 @@ material_keys! {
         anisotropy_direction: Option<Located<TextureName>>,
         /// Degrees by which it is turned further, from the direction in which texture coordinate u grows towards that of v.
         anisotropy_rotation: Option<Located<Number>>,
+        /// Share of the surface that a thin film covers, 1 when left out.
+        thin_film: Option<Located<Scalar<Fraction>>>,
+        /// Thickness of a film on the surface in nanometres, which makes light interfere; no film when left out.
+        thin_film_thickness: Option<Located<Scalar<NonNegative>>>,
+        /// Nanometres that are added to the thickness, which is that much where its texture is 0.
+        thin_film_offset: Option<Located<Checked<NonNegative>>>,
+        /// Index of refraction of the film over that outside, 1.3 when left out.
+        thin_film_ior: Option<Located<Checked<FilmIndex>>>,
         /// "separable" when left out.
         masking: Option<MaskingEntry>,
         /// Light that microfacets send to each other is not lost, as it is in glTF; false when left out.
@@ -90,6 +111,10 @@ impl MaterialKeys for Keys {
         "base_color = [0.9, 0.6, 0.3]\nroughness = 0.8\nenergy_compensation = true",
         "base_color = [0.5, 0.9, 0.6]\nmetallic = 0.4\nroughness = 0.9\nanisotropy = 0.3\nmasking = \"height_correlated\"\nenergy_compensation = true\nsheen_color = 0.5\nsheen_roughness = 1",
         "base_color = [0.9, 0.9, 1]\nmetallic = 0\nroughness = 0.2\nior = 1.3\ntransmission = 1\nattenuation_color = [0.9, 0.4, 0.1]\nattenuation_distance = 0.5",
+        "base_color = [0.7, 0.5, 0.2]\nmetallic = 0.1\nroughness = 0.4\ndiffuse_transmission = 0.6\ndiffuse_transmission_color = [0.3, 0.8, 0.2]",
+        "base_color = [0.7, 0.5, 0.9]\nmetallic = 0\nroughness = 0.6\nior = 1.3\ntransmission = 0.4\ndiffuse_transmission = 0.7\ndiffuse_transmission_color = [0.9, 0.6, 0.3]\nsheen_color = 0.3\nsheen_roughness = 0.5",
+        "base_color = [0.8, 0.4, 0.1]\nmetallic = 0.5\nroughness = 0.3\nthin_film_thickness = 400\nthin_film = 0.8",
+        "base_color = [0.4, 0.8, 0.9]\nmetallic = 0\nroughness = 0\nior = 1.4\ntransmission = 1\nthin_film_thickness = 300\nthin_film_offset = 50\nthin_film_ior = 1.6",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -109,6 +134,15 @@ impl MaterialKeys for Keys {
         let clearcoat_roughness = self.clearcoat_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let sheen_roughness = self.sheen_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let sheen_color = self.sheen_color.as_ref().map(|written| resolver.colour(written)).transpose()?;
+        let diffuse_transmission = self.diffuse_transmission.as_ref().map(|written| resolver.scalar(written)).transpose()?;
+        let diffuse_transmission_color =
+            self.diffuse_transmission_color.as_ref().map(|written| resolver.colour(&written.value)).transpose()?;
+        let film = ThinFilmKeys {
+            thickness: self.thin_film_thickness.as_ref(),
+            offset: self.thin_film_offset.as_ref(),
+            ior: self.thin_film_ior.as_ref(),
+        };
+        let thin_film_share = self.thin_film.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let attenuation = self.attenuation_color.as_ref().zip(self.attenuation_distance.as_ref());
         Ok(MaterialKind::Principled(Box::new(Principled {
             base_color: resolver.colour_or_white(&self.base_color)?,
@@ -118,6 +152,8 @@ impl MaterialKeys for Keys {
             specular: scalar(&self.specular, 1.0)?,
             specular_color: resolver.colour_or_white(&self.specular_color)?,
             transmission: scalar(&self.transmission, 0.0)?,
+            diffuse_transmission: diffuse_transmission.unwrap_or(ColorInput::grey(0.0)),
+            diffuse_transmission_color: diffuse_transmission_color.unwrap_or(ColorInput::grey(1.0)),
             thin: self.thin.as_ref().is_some_and(|thin| thin.value),
             attenuation: attenuation
                 .map(|(color, distance)| Attenuation { color: color.value.0, distance: distance.value.0 })
@@ -130,6 +166,8 @@ impl MaterialKeys for Keys {
             anisotropy_direction: anisotropy_direction.filter(|_| !is_isotropic),
             anisotropy: anisotropy.filter(|strength| *strength != ColorInput::grey(0.0)),
             anisotropy_rotation_degrees: self.anisotropy_rotation.as_ref().map_or(0.0, |degrees| degrees.value.0),
+            thin_film: film.resolve(resolver)?,
+            thin_film_share: thin_film_share.unwrap_or(ColorInput::grey(1.0)),
             masking: self.masking.map_or(Masking::Separable, Masking::from),
             energy_compensation: self.energy_compensation.unwrap_or(false),
         })))
@@ -151,6 +189,10 @@ impl MaterialKeys for Keys {
             out += &line("coat_normal_map", &writer.textures.quoted(texture));
             out += &line("coat_normal_scale", &number(scale));
         }
+        if principled.diffuse_transmission != ColorInput::grey(0.0) {
+            out += &writer.input("diffuse_transmission", &principled.diffuse_transmission);
+            out += &writer.input("diffuse_transmission_color", &principled.diffuse_transmission_color);
+        }
         if let Some(Attenuation { color, distance }) = principled.attenuation {
             out += &line("attenuation_color", &writer::colour(color));
             out += &line("attenuation_distance", &number(distance));
@@ -165,6 +207,10 @@ impl MaterialKeys for Keys {
                 out += &line("anisotropy_direction", &writer.textures.quoted(texture));
             }
             out += &line("anisotropy_rotation", &number(principled.anisotropy_rotation_degrees));
+        }
+        if principled.thin_film.is_some() {
+            out += &writer.input("thin_film", &principled.thin_film_share);
+            out += &write_thin_film(principled.thin_film.as_ref(), writer);
         }
         if principled.masking == Masking::HeightCorrelated {
             out += &line("masking", "\"height_correlated\"");
@@ -181,6 +227,7 @@ impl Keys {
         {
             return Err(resolver.error(&attenuation.place, "a `thin` wall encloses nothing that could take light"));
         }
+        let lets_light_in = self.transmission.is_some() || self.diffuse_transmission.is_some();
         let rows = [
             (span(&self.anisotropy_rotation), "anisotropy_rotation", self.anisotropy.is_some(), "anisotropy"),
             (span(&self.anisotropy_direction), "anisotropy_direction", self.anisotropy.is_some(), "anisotropy"),
@@ -189,7 +236,14 @@ impl Keys {
             (span(&self.coat_normal_map), "coat_normal_map", self.clearcoat.is_some(), "clearcoat"),
             (span(&self.coat_normal_scale), "coat_normal_scale", self.coat_normal_map.is_some(), "coat_normal_map"),
             (span(&self.sheen_roughness), "sheen_roughness", self.sheen_color.is_some(), "sheen_color"),
-            (span(&self.attenuation_color), "attenuation_color", self.transmission.is_some(), "transmission"),
+            (span(&self.thin_film), "thin_film", self.thin_film_thickness.is_some(), "thin_film_thickness"),
+            (span(&self.attenuation_color), "attenuation_color", lets_light_in, "transmission"),
+            (
+                span(&self.diffuse_transmission_color),
+                "diffuse_transmission_color",
+                self.diffuse_transmission.is_some(),
+                "diffuse_transmission",
+            ),
             (span(&self.attenuation_color), "attenuation_color", self.attenuation_distance.is_some(), "attenuation_distance"),
             (span(&self.attenuation_distance), "attenuation_distance", self.attenuation_color.is_some(), "attenuation_color"),
         ];

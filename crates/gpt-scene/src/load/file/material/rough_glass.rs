@@ -5,11 +5,12 @@ use serde::Deserialize;
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::{FacetKeys, MaskingEntry, write_facets};
+use super::thin_film::{ThinFilmKeys, write_thin_film};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, Positive};
+use crate::load::file::value::{Checked, FilmIndex, Fraction, IndexOfRefraction, Located, NonNegative, Positive};
 use crate::load::file::writer::{Writer, flag, line, number};
 use crate::scene::{Masking, MaterialKind, MicrofacetDistribution, Microfacets};
 
@@ -22,12 +23,14 @@ material_keys! {
         ] },
         { "dependentRequired": {
             "alpha_u": ["alpha_v"], "alpha_v": ["alpha_u"], "roughness_u": ["roughness_v"], "roughness_v": ["roughness_u"],
+            "thin_film_offset": ["thin_film_thickness"], "thin_film_ior": ["thin_film_thickness"],
         } },
+        { "not": { "required": ["thin_film_thickness", "thin"], "properties": { "thin": { "const": true } } } },
         {
             "if": { "required": ["exponent"] },
             "then": {
                 "properties": { "distribution": { "const": "phong" }, "thin": { "const": false } },
-                "not": { "required": ["masking"] },
+                "not": { "anyOf": [{ "required": ["masking"] }, { "required": ["thin_film_thickness"] }] },
             },
             "else": { "properties": { "distribution": { "enum": ["ggx", "beckmann"] } } },
         },
@@ -59,6 +62,12 @@ material_keys! {
         reflectance: Option<Colour<Fraction>>,
         /// 1 when left out.
         transmittance: Option<Colour<Fraction>>,
+        /// Thickness of a film on the surface in nanometres, which makes light interfere; no film when left out.
+        thin_film_thickness: Option<Located<Scalar<NonNegative>>>,
+        /// Nanometres that are added to the thickness, which is that much where its texture is 0.
+        thin_film_offset: Option<Located<Checked<NonNegative>>>,
+        /// Index of refraction of the film over that outside, 1.3 when left out.
+        thin_film_ior: Option<Located<Checked<FilmIndex>>>,
     }
 }
 
@@ -84,6 +93,7 @@ impl MaterialKeys for Keys {
         "ior = 1.4\nalpha_u = 0.5\nalpha_v = 0.15\ntransmittance = [0.4, 0.8, 0.9]",
         "ior = 1.6\nalpha = 0.3\nthin = true\ntransmittance = [0.4, 0.8, 0.9]",
         "roughness_u = 0.3\nroughness_v = 0.7\ndistribution = \"beckmann\"\nthin = true",
+        "ior = 1.7\nalpha = 0.3\nthin_film_thickness = 300\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -91,19 +101,38 @@ impl MaterialKeys for Keys {
             Some(exponent) => self.phong(exponent, resolver)?,
             None => self.facets(resolver)?,
         };
+        let film = ThinFilmKeys {
+            thickness: self.thin_film_thickness.as_ref(),
+            offset: self.thin_film_offset.as_ref(),
+            ior: self.thin_film_ior.as_ref(),
+        };
+        let thin = self.thin.as_ref().is_some_and(|thin| thin.value);
+        if let (Some((name, place)), true) = (film.place(), thin) {
+            return Err(resolver
+                .error(place, format!("`{name}` is for a boundary of glass, and a `thin` wall has two"))
+                .with_help("a film in air, as of a bubble, is glass of `ior = 1` with a thin film"));
+        }
+        if let (Some((name, place)), Some(_)) = (film.place(), &self.exponent) {
+            return Err(resolver.error(place, format!("`{name}` is for microfacets: distribution = \"phong\" has none")));
+        }
         Ok(MaterialKind::RoughGlass {
             ior: ior_or_default(self.ior),
             facets,
             reflectance: resolver.colour_or_white(&self.reflectance)?,
             transmittance: resolver.colour_or_white(&self.transmittance)?,
-            thin: self.thin.as_ref().is_some_and(|thin| thin.value),
+            thin,
+            film: film.resolve(resolver)?,
         })
     }
 
     fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
-        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin } = kind else { return String::new() };
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin, film } = kind else { return String::new() };
         let tints = writer.input("reflectance", reflectance) + &writer.input("transmittance", transmittance);
-        line("ior", &number(*ior)) + &write_facets(facets, writer) + &tints + &flag("thin", *thin)
+        line("ior", &number(*ior))
+            + &write_facets(facets, writer)
+            + &tints
+            + &flag("thin", *thin)
+            + &write_thin_film(film.as_ref(), writer)
     }
 }
 

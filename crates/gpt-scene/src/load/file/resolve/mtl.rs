@@ -164,6 +164,7 @@ impl Resolver<'_> {
             reflectance: ColorInput::grey(1.0),
             transmittance: ColorInput::Constant(transmittance),
             thin: false,
+            film: None,
         }
     }
 

@@ -39,6 +39,8 @@ impl Resolver<'_> {
             specular_color: ColorInput::grey(1.0),
             // Blender writes what lets light through by `d` and an illumination model of glass.
             transmission: ColorInput::grey(if opacity < 1.0 && is_glass(written) { 1.0 - opacity } else { 0.0 }),
+            diffuse_transmission: ColorInput::grey(0.0),
+            diffuse_transmission_color: ColorInput::grey(1.0),
             thin: false,
             attenuation: None,
             sheen_roughness: ColorInput::grey(if sheen == ColorInput::grey(0.0) { 0.0 } else { SHEEN_ROUGHNESS }),
@@ -49,6 +51,8 @@ impl Resolver<'_> {
             coat_normal_map: None,
             anisotropy: Some(anisotropy).filter(|strength| *strength != ColorInput::grey(0.0)),
             anisotropy_direction: None,
+            thin_film: None,
+            thin_film_share: ColorInput::grey(1.0),
             // A share of a whole turn.
             anisotropy_rotation_degrees: 360.0 * rotation,
             masking: Masking::Separable,

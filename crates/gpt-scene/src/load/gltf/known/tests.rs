@@ -57,9 +57,11 @@ fn file() -> Value {
         "KHR_materials_sheen": { "sheenColorFactor": [0.5, 0.5, 0.5], "sheenColorTexture": texture(0), "sheenRoughnessFactor": 0.5,
             "sheenRoughnessTexture": texture(0) },
         "KHR_materials_anisotropy": { "anisotropyStrength": 0.5, "anisotropyRotation": 0.5, "anisotropyTexture": texture(0) },
-        "KHR_materials_iridescence": { "iridescenceFactor": 0.0 },
+        "KHR_materials_iridescence": { "iridescenceFactor": 0.5, "iridescenceTexture": texture(0), "iridescenceIor": 1.5,
+            "iridescenceThicknessMinimum": 150.0, "iridescenceThicknessMaximum": 500.0, "iridescenceThicknessTexture": texture(0) },
         "KHR_materials_dispersion": { "dispersion": 0.0 },
-        "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.0 },
+        "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.5, "diffuseTransmissionTexture": texture(0),
+            "diffuseTransmissionColorFactor": [0.5, 0.6, 0.7], "diffuseTransmissionColorTexture": texture(0) },
     }));
     everything["normalTexture"] = json!({ "index": 0, "texCoord": 0, "scale": 0.5 });
     everything["occlusionTexture"] = json!({ "index": 0, "strength": 0.5 });
@@ -187,7 +189,6 @@ fn rows() -> Vec<Row> {
     const FACTOR_ENDS: [f64; 4] = [-1.0, 0.0, 1.0, 2.0];
     const ORTHOGRAPHIC: &[(&str, &str)] = &[("/nodes/1/camera", "1")];
     const GLOSSY: &[(&str, &str)] = &[("/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/0/material", "2")];
-    const OPAQUE: &[(&str, &str)] = &[("/materials/1/extensions/KHR_materials_transmission", "null")];
     let colours = || json!([[-1.0, 0.5, 0.5], [0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 0.5, 0.5]]);
     let texture = || json!([{ "index": 1 }, null, { "index": 77 }]);
     let mut rows = vec![
@@ -339,14 +340,18 @@ fn rows() -> Vec<Row> {
         ("SHEEN", "extensions/KHR_materials_sheen", "sheenRoughnessFactor", &factors, &[]),
         ("ANISOTROPY", "extensions/KHR_materials_anisotropy", "anisotropyStrength", &factors, &[]),
         ("ANISOTROPY", "extensions/KHR_materials_anisotropy", "anisotropyRotation", &factors, &[]),
-        ("IRIDESCENCE", "extensions/KHR_materials_iridescence", "iridescenceFactor", &json!([1.0]), &[]),
+        ("IRIDESCENCE", "extensions/KHR_materials_iridescence", "iridescenceFactor", &factors, &[]),
+        ("IRIDESCENCE", "extensions/KHR_materials_iridescence", "iridescenceIor", &json!([0.5, 1.0, 3.0, 20.0]), &[]),
+        ("IRIDESCENCE", "extensions/KHR_materials_iridescence", "iridescenceThicknessMinimum", &json!([-1.0, 0.0, 600.0]), &[]),
+        ("IRIDESCENCE", "extensions/KHR_materials_iridescence", "iridescenceThicknessMaximum", &json!([-1.0, 0.0, 1e9]), &[]),
         ("DISPERSION", "extensions/KHR_materials_dispersion", "dispersion", &json!([0.1]), &[]),
+        ("DIFFUSE_TRANSMISSION", "extensions/KHR_materials_diffuse_transmission", "diffuseTransmissionFactor", &factors, &[]),
         (
             "DIFFUSE_TRANSMISSION",
             "extensions/KHR_materials_diffuse_transmission",
-            "diffuseTransmissionFactor",
-            &json!([1.0]),
-            OPAQUE,
+            "diffuseTransmissionColorFactor",
+            &colours(),
+            &[],
         ),
         (
             "TRANSFORM",
@@ -389,6 +394,10 @@ fn rows() -> Vec<Row> {
         "extensions/KHR_materials_specular/specularColorTexture",
         "extensions/KHR_materials_transmission/transmissionTexture",
         "extensions/KHR_materials_volume/thicknessTexture",
+        "extensions/KHR_materials_iridescence/iridescenceTexture",
+        "extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
+        "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture",
+        "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
         "extensions/KHR_materials_clearcoat/clearcoatTexture",
         "extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
         "extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
