@@ -37,7 +37,13 @@ fn a_point_light_in_fog_shows_its_airlight() {
             |medium: &Medium| per_channel(medium, &|channel| of_point_light(channel, LAMP, 3.0, [0.0, 0.0, -1.0], length, 1e-12));
         Truth {
             name: format!("a point light, {:?}", medium.phase),
-            text: text::scene(64, 2, [0.0; 3], [0.0, 0.0, -1.0], &["medium = \"fog\"\n".into(), medium.entry("fog"), lamp, wall]),
+            text: text::scene(
+                512,
+                2,
+                [0.0; 3],
+                [0.0, 0.0, -1.0],
+                &["medium = \"fog\"\n".into(), medium.entry("fog"), lamp, wall],
+            ),
             expected: radiance(&medium),
             mistaken: radiance(&medium.scattering_less(0.98)),
             estimators: WITH_LIGHT_SAMPLES,
