@@ -1,5 +1,10 @@
 //! Integrals along lines through grids, against densities whose integral is known and against adaptive quadrature.
 
+use std::sync::Arc;
+
+use glam::DVec3;
+use gpt::scene::volume::{Volume, VolumeFilter, VoxelGrid};
+
 use crate::common::media::grid::{Grid, Interpolation, Outside};
 use crate::common::media::quadrature::integrate;
 use crate::statistics::random::SplitMix64;
@@ -55,6 +60,25 @@ fn random_grids_agree_with_adaptive_quadrature() {
             let mut other = grid.clone();
             other.values.iter_mut().for_each(|value| *value *= 1.001);
             assert!((other.integral(origin, direction, [0.0, 7.0]) - by_quadrature).abs() > 1e-4);
+        }
+    }
+}
+
+/// The grids that scenes have are looked up as these are; there, values stand half a voxel farther on.
+#[test]
+fn volumes_of_scenes_are_looked_up_alike() {
+    let mut random = SplitMix64::new(3);
+    for (filter, interpolation) in
+        [(VolumeFilter::Nearest, Interpolation::Nearest), (VolumeFilter::Trilinear, Interpolation::Trilinear)]
+    {
+        let grid = grid_of([4, 5, 3], interpolation, Outside::Clamped, &mut |_| f64::from(random.uniform() as f32));
+        let values = grid.values.iter().map(|&value| value as f32).collect();
+        let voxels = Arc::new(VoxelGrid::new([4, 5, 3], 1, values).expect("there is a value for each voxel"));
+        let volume = Volume { filter, ..Volume::in_box(voxels, DVec3::ZERO, DVec3::new(4.0, 5.0, 3.0)) };
+        for _ in 0..200 {
+            let point = DVec3::new(4.0 * random.uniform(), 5.0 * random.uniform(), 3.0 * random.uniform());
+            let (found, expected) = (volume.value_at(point).to_rgb()[0], grid.density((point - 0.5).to_array()));
+            assert!((found - expected).abs() < 1e-12, "{filter:?}, {point}: {found} is not {expected}");
         }
     }
 }

@@ -45,10 +45,11 @@ impl Medium {
 fn phase_entry(phase: &Phase) -> String {
     match phase {
         Phase::Isotropic => "{ type = \"isotropic\" }".into(),
-        Phase::HenyeyGreenstein(g) => format!("{{ type = \"henyey-greenstein\", g = {g:?} }}"),
+        Phase::HenyeyGreenstein(g) => format!("{{ type = \"henyey_greenstein\", g = {g:?} }}"),
         Phase::Rayleigh => "{ type = \"rayleigh\" }".into(),
         Phase::Blend(first, second, weight) => {
-            format!("{{ type = \"blend\", phases = [{}, {}], weight = {weight:?} }}", phase_entry(first), phase_entry(second))
+            let (first, second) = (phase_entry(first), phase_entry(second));
+            format!("{{ type = \"blend\", phases = [{first}, {second}], weights = [{:?}, {weight:?}] }}", 1.0 - weight)
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::closed_forms::devices;
 use crate::common::effort::in_full;
 use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
 use gpt::load;
-use gpt::scene::{Estimator, Scene};
+use gpt::scene::{DistanceSampling, Estimator, Scene};
 
 /// Probability that a family fails a program that is right.
 const ALPHA: f64 = 0.01;
@@ -39,26 +39,39 @@ fn observe(render: crate::closed_forms::Render, scene: &Scene) -> [Moments; 3] {
     moments
 }
 
-/// Renders every truth and says which do not hold, or would hold of the mistake as well. In the short form the truths take turns with estimators, all are
-/// rendered on the CPU and some on the device; what the device makes of the others is held to the reference elsewhere.
+/// Ways to draw the place where a medium scatters.
+const PLACES: [DistanceSampling; 3] = [DistanceSampling::Mis, DistanceSampling::Distance, DistanceSampling::Equiangular];
+
+/// Renders every truth and says which do not hold, or would hold of the mistake as well. In the short form truths take turns with estimators and ways to
+/// draw places, all are rendered on the CPU and some on the device; what the device makes of the others is held to the reference elsewhere.
 pub fn assert_all_hold(truths: &[Truth]) {
-    let everywhere = in_full("media by every estimator, and all of them on the device");
-    let level = sidak(ALPHA, truths.iter().map(|truth| 3 * truth.estimators.len() * devices().len()).sum());
+    let everywhere = in_full("media by every estimator and way to draw places, and all of them on the device");
+    let ways = |truth: &Truth| {
+        truth.estimators.iter().flat_map(|&estimator| PLACES.map(|places| (estimator, places))).collect::<Vec<_>>()
+    };
+    let level = sidak(ALPHA, truths.iter().map(|truth| 3 * ways(truth).len() * devices().len()).sum());
     let mut failures = Vec::new();
     for (device_number, &(device, render, margin)) in devices().iter().enumerate() {
         for (number, truth) in truths.iter().enumerate() {
             let one_in = [1, 2, 6][device_number];
-            for (turn, &estimator) in truth.estimators.iter().enumerate() {
-                let is_its_turn = number % one_in == device_number / 2 && turn == (number / one_in) % truth.estimators.len();
+            let ways = ways(truth);
+            let turn = (4 * number + number / 3 + device_number) % ways.len();
+            for (index, &(estimator, places)) in ways.iter().enumerate() {
+                let is_its_turn = number % one_in == device_number / 2 && index == turn;
                 if !everywhere && !is_its_turn {
                     continue;
                 }
                 let mut scene = load(&truth.text);
-                (scene.render.estimator, scene.render.seed) = (estimator, (number * 8 + turn) as u32);
+                (scene.render.estimator, scene.render.distance_sampling) = (estimator, places);
+                if estimator == Estimator::Nee {
+                    // Light samples alone are the noisiest.
+                    scene.render.spp *= 4;
+                }
+                scene.render.seed = (number * PLACES.len() * 3 + index) as u32;
                 let moments = observe(render, &scene);
-                let found = judge(truth, &moments, margin, level);
-                println!("{device}, {}, {estimator:?}: {}", truth.name, in_words(&moments));
-                failures.extend(found.map(|fault| format!("{device}, {}, {estimator:?}: {fault}", truth.name)));
+                let name = format!("{device}, {}, {estimator:?}, places by {places:?}", truth.name);
+                println!("{name}: {}", in_words(&moments));
+                failures.extend(judge(truth, &moments, margin, level).map(|fault| format!("{name}: {fault}")));
             }
         }
     }
