@@ -33,11 +33,11 @@ fn nested(thicker: f64) -> (Vec<String>, Vec<Stretch>) {
     ];
     let entries = bodies.iter().map(|(name, medium)| medium.entry(name) + &text::null_boundary(name));
     let entries = entries.chain(shapes.iter().map(|(shape, _)| shape.clone())).collect();
-    let stretch = |((_, medium), (_, ends)): (&(&str, Medium), &(String, Option<[f64; 2]>))| {
+    let stretch = |medium: &Medium, ends: Option<[f64; 2]>| {
         let ends = ends.expect("the ray goes through every body");
         Stretch { emission: medium.emission, ..Stretch::new(ends, medium.absorption) }
     };
-    let stretches = bodies.iter().zip(&shapes).map(stretch).collect();
+    let stretches = bodies.iter().zip(&shapes).map(|((_, medium), (_, ends))| stretch(medium, *ends)).collect();
     (entries, stretches)
 }
 
