@@ -29,6 +29,26 @@ impl Medium {
     }
 }
 
+impl Medium {
+    /// A sentence about a number that is out of range.
+    pub(super) fn check(&self) -> Result<(), String> {
+        for (what, value) in [("absorption", self.absorption), ("scattering", self.scattering), ("emission", self.emission)] {
+            if !value.is_finite() || value.min_component() < 0.0 {
+                return Err(format!("its {what} must be finite and not negative"));
+            }
+        }
+        let sum: f64 = self.phase.0.iter().map(|lobe| lobe.weight).sum();
+        if self.phase.0.iter().any(|lobe| lobe.weight.is_nan() || lobe.weight < 0.0) || (sum - 1.0).abs() > 1e-6 {
+            return Err(format!("the weights of its phase function must be from 0 to 1 and sum up to 1, not to {sum}"));
+        }
+        let is_wrong = |lobe: &PhaseLobe| matches!(lobe.kind, PhaseKind::HenyeyGreenstein { g } if !(g.abs() < 1.0));
+        if self.phase.0.iter().any(is_wrong) {
+            return Err("the mean cosine of its phase function must be above -1 and below 1".into());
+        }
+        Ok(())
+    }
+}
+
 /// A phase function: a mean of [lobes](PhaseLobe), whose weights sum up to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase(pub Vec<PhaseLobe>);

@@ -10,6 +10,7 @@ use super::camera::{ApertureShape, Camera, Projection};
 use super::check::{Check, image, is_amount, is_positive, within_range};
 use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{BlendWeight, Material, MaterialId, MaterialKind, ParameterType};
+use super::medium::MediumId;
 use super::model::Scene;
 use super::settings::BadSetting;
 use super::shape::{Geometry, Shape};
@@ -48,6 +49,10 @@ impl Scene {
         for texture in &self.textures {
             of(|| format!("texture `{}`", texture.name), check_texture(texture).and(self.check_times(texture)))?;
         }
+        for medium in &self.media {
+            of(|| format!("medium `{}`", medium.name), medium.check())?;
+        }
+        of(|| "camera".into(), self.camera_medium.map_or(Ok(()), |id| self.medium_exists(id)))?;
         for material in &self.materials {
             of(|| format!("material `{}`", material.name), self.check_material(material))?;
         }
@@ -79,7 +84,12 @@ impl Scene {
         self.instances.iter().try_for_each(|entry| of(|| entry.label.clone(), check(entry)))
     }
 
+    fn medium_exists(&self, id: MediumId) -> Check {
+        if id < self.media.len() { Ok(()) } else { Err(format!("there is no medium {id}")) }
+    }
+
     fn check_material(&self, material: &Material) -> Check {
+        material.interior.map_or(Ok(()), |id| self.medium_exists(id))?;
         if let Some(id) = material.normal_map {
             self.texture_exists(id)?;
             if self.textures[id].times.is_some() {

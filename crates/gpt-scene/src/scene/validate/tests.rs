@@ -5,8 +5,8 @@ use glam::{DVec3, Vec2, Vec3};
 use super::*;
 use crate::scene::{
     Aperture, CoatNormalMap, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture,
-    Masking, Mesh, Microfacets, Motion, MotionStep, Plane, PointLight, Principled, Rectangle, Sphere, SpotLight, Texture,
-    TextureFilter, TextureWrap, ThrownPicture, Transform, TransformStep,
+    Masking, Medium, Mesh, Microfacets, Motion, MotionStep, Phase, PhaseKind, Plane, PointLight, Principled, Rectangle, Sphere,
+    SpotLight, Texture, TextureFilter, TextureWrap, ThrownPicture, Transform, TransformStep,
 };
 use crate::spectrum::Spectrum;
 
@@ -137,6 +137,13 @@ fn what_can_be_rendered_passes() {
 #[test]
 fn each_mistake_is_named_with_its_part() {
     type Change = fn(&mut Scene);
+    /// Fog, which the camera is within.
+    fn medium(scene: &mut Scene) -> &mut Medium {
+        let (absorption, scattering, emission) = (Spectrum::grey(0.1), Spectrum::WHITE, Spectrum::BLACK);
+        scene.media.push(Medium { name: "fog".into(), absorption, scattering, emission, phase: Phase::isotropic() });
+        scene.camera_medium = Some(0);
+        &mut scene.media[0]
+    }
     fn mesh(scene: &mut Scene) -> &mut Mesh {
         match &mut scene.shapes[0].geometry {
             Geometry::Mesh(mesh) => Arc::make_mut(mesh),
@@ -154,6 +161,15 @@ fn each_mistake_is_named_with_its_part() {
         Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default(), mirrored: false })
     }
     let cases: &[(Change, &str)] = &[
+        (|s| medium(s).scattering = Spectrum::grey(-1.0), "medium `fog`: its scattering must be finite and not negative"),
+        (|s| medium(s).emission = Spectrum::grey(f64::NAN), "medium `fog`: its emission must be finite and not negative"),
+        (
+            |s| medium(s).phase = Phase::of(PhaseKind::HenyeyGreenstein { g: 1.0 }),
+            "medium `fog`: the mean cosine of its phase function must be above -1 and below 1",
+        ),
+        (|s| medium(s).phase.0.clear(), "medium `fog`: the weights of its phase function"),
+        (|s| s.camera_medium = Some(0), "camera: there is no medium 0"),
+        (|s| s.materials[0].interior = Some(3), "material `a`: there is no medium 3"),
         (|s| s.film.size = [0, 4], "film: size: a picture of 0 x 4 pixels is empty"),
         (|s| s.film.size = [1 << 16, 1 << 16], "film: size: a picture of 65536 x 65536 pixels is too large"),
         (|s| s.film.filter.radius = f64::NAN, "film: filter: expected a radius from 0.5 to 16 pixels, found NaN"),
