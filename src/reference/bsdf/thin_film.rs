@@ -125,8 +125,9 @@ fn quotient(a: DVec2, b: DVec2) -> DVec2 {
 
 #[cfg(test)]
 mod tests {
+    use gpt_scene::observer::{Role, integrate};
+
     use super::*;
-    use crate::observer::{Role, integrate};
     use crate::reference::bsdf::fresnel::{conductor_reflectance, dielectric_reflectance};
 
     /// Airy's formula at one wavelength, by amplitudes that go to and fro.

@@ -11,6 +11,7 @@ mod fresnel;
 mod mixtures;
 mod plastic;
 mod sides;
+mod spectral;
 mod views;
 
 use std::collections::BTreeSet;

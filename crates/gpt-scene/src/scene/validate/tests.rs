@@ -66,7 +66,8 @@ fn scene() -> Scene {
     }
     let grey = ColorInput::grey(0.5);
     let textured = MaterialKind::Diffuse { reflectance: ColorInput::Texture(0) };
-    let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey, thin: false, film: None };
+    let glass =
+        MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey, thin: false, film: None, dispersion: None };
     let metal = MaterialKind::Conductor {
         fresnel: ConductorFresnel::Complex { eta: Spectrum::WHITE, k: Spectrum::WHITE },
         facets: Microfacets::ggx(grey),
@@ -212,8 +213,14 @@ fn each_mistake_is_named_with_its_part() {
         (
             |s| {
                 let white = ColorInput::grey(1.0);
-                s.materials[2].kind =
-                    MaterialKind::Glass { ior: 0.0, reflectance: white, transmittance: white, thin: false, film: None };
+                s.materials[2].kind = MaterialKind::Glass {
+                    ior: 0.0,
+                    reflectance: white,
+                    transmittance: white,
+                    thin: false,
+                    film: None,
+                    dispersion: None,
+                };
             },
             "material `glass`: the index of refraction must be positive",
         ),
