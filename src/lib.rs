@@ -123,8 +123,6 @@ mod effort;
 #[path = "../tests/statistics/mod.rs"]
 mod statistics;
 
-#[cfg(test)]
-use gpt_scene::observer;
 use gpt_scene::{black_body, file_identity, input, picture_file};
 #[doc(hidden)]
 pub use gpt_scene::{choice, load, math, scene, scene_writer, spectrum};

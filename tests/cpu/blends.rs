@@ -113,7 +113,15 @@ fn metal(alpha: f64) -> MaterialKind {
 }
 
 fn rough_glass(facets: Microfacets) -> MaterialKind {
-    MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey(1.0), transmittance: grey(1.0), thin: false, film: None }
+    MaterialKind::RoughGlass {
+        ior: 1.5,
+        facets,
+        reflectance: grey(1.0),
+        transmittance: grey(1.0),
+        thin: false,
+        film: None,
+        dispersion: None,
+    }
 }
 
 /// Balls of nested blends: every kind of lobe, a light among them, weights by angle and by noise.
@@ -193,7 +201,7 @@ fn a_blend_of_one_material_is_that_material() {
     let kinds = [
         MaterialKind::Diffuse { reflectance: grey(0.7) },
         MaterialKind::Mirror { reflectance: grey(0.7) },
-        MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false, film: None },
+        MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false, film: None, dispersion: None },
         metal(0.3),
         rough_glass(Microfacets::ggx(grey(0.3))),
     ];

@@ -303,7 +303,10 @@ fn principled_base_value(
     var far = no_value();
     if HAS_PRINCIPLED_DIFFUSE_TRANSMISSION && shares.diffuse_transmission > 0.0 {
         let m = normalize(o + vec3<f32>(i.xy, -i.z));
-        let passed = principled_split(p, clamp(dot(o, m), 0.0, 1.0)).passed * principled_below_sheen(p, o.z, -i.z);
+        // By the angle within the denser medium from either side, so that light goes both ways alike.
+        var denser = p;
+        denser.eta = min(p.eta, 1.0 / p.eta);
+        let passed = principled_split(denser, clamp(dot(o, m), 0.0, 1.0)).passed * principled_below_sheen(p, o.z, -i.z);
         far = BsdfValue(principled_diffuse_base(p).on * (shares.below_coat * passed * INVERSE_PI * -i.z), shares.diffuse_transmission * hemisphere_pdf(-i.z));
     }
     if HAS_PRINCIPLED_TRANSMISSION && shares.transmission > 0.0 && !facets_are_smooth(p.facets) {

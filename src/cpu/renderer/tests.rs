@@ -25,7 +25,14 @@ fn scene(size: [u32; 2]) -> Scene {
     let kinds = [
         MaterialKind::Diffuse { reflectance: ColorInput::Constant(Spectrum::new(0.8, 0.5, 0.3)) },
         MaterialKind::Mirror { reflectance: grey(0.9) },
-        MaterialKind::Glass { ior: 1.5, reflectance: grey(1.0), transmittance: grey(1.0), thin: false, film: None },
+        MaterialKind::Glass {
+            ior: 1.5,
+            reflectance: grey(1.0),
+            transmittance: grey(1.0),
+            thin: false,
+            film: None,
+            dispersion: None,
+        },
         MaterialKind::Emissive,
     ];
     for (index, kind) in kinds.into_iter().enumerate() {

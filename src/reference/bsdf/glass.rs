@@ -15,7 +15,9 @@ pub struct Glass {
 
 impl Scatter for Glass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::Glass { ior, reflectance, transmittance, thin: false, film: None } = kind else { return None };
+        let MaterialKind::Glass { ior, reflectance, transmittance, thin: false, film: None, dispersion: None } = kind else {
+            return None;
+        };
         Some(Self { dielectric: Dielectric::new(*ior, reflectance, transmittance, lookup) })
     }
 

@@ -40,7 +40,10 @@ impl PhongGlass {
 
 impl Scatter for PhongGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: _, film: None } = kind else { return None };
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: _, film: None, dispersion: None } = kind
+        else {
+            return None;
+        };
         if facets.distribution != MicrofacetDistribution::Phong {
             return None;
         }

@@ -249,7 +249,9 @@ impl Principled {
             let (wo, local) = (view.frame.to_local(view.wo), view.frame.to_local(wi));
             let cosine = -local.z;
             let m = (wo + local.with_z(cosine)).normalize();
-            let passed = self.split(wo.dot(m), self.eta_of_reflection(view)).passed * self.below_sheen(wo.z, cosine);
+            // By the angle within the denser medium from either side, so that light goes both ways alike.
+            let eta = self.eta_of_reflection(view);
+            let passed = self.split(wo.dot(m), eta.min(1.0 / eta)).passed * self.below_sheen(wo.z, cosine);
             sum.value += self.diffuse_base(view).on * (shares.below_coat * passed * FRAC_1_PI * cosine);
             sum.pdf += shares.diffuse_transmission * hemisphere_pdf(view, cosine);
         }

@@ -54,7 +54,9 @@ impl RoughGlass {
 
 impl Scatter for RoughGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: false, film: None } = kind else {
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: false, film: None, dispersion: None } =
+            kind
+        else {
             return None;
         };
         if facets.distribution == MicrofacetDistribution::Phong {

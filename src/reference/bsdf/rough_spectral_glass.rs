@@ -9,7 +9,7 @@ use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::spectral_dielectric::SpectralDielectric;
 use super::spectral_glass::SpectralGlass;
 use super::view::View;
-use crate::scene::material::SMALLEST_BEND;
+use crate::scene::material::{SMALLEST_BEND, iors};
 use crate::scene::{MaterialKind, MicrofacetDistribution};
 use crate::spectrum::Spectrum;
 
@@ -49,13 +49,13 @@ impl RoughSpectralGlass {
 
 impl Scatter for RoughSpectralGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: _, film: Some(film) } = kind else {
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, film, dispersion, .. } = kind else {
             return None;
         };
-        if facets.distribution == MicrofacetDistribution::Phong {
+        if facets.distribution == MicrofacetDistribution::Phong || film.is_none() && dispersion.is_none() {
             return None;
         }
-        let dielectric = SpectralDielectric::new(Spectrum::grey(*ior), [reflectance, transmittance], Some(film), lookup);
+        let dielectric = SpectralDielectric::new(iors(*ior, *dispersion), [reflectance, transmittance], film.as_ref(), lookup);
         Some(Self { dielectric, facets: Facets::of(facets, lookup) })
     }
 

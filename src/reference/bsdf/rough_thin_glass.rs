@@ -26,7 +26,8 @@ fn across(local: DVec3) -> DVec3 {
 
 impl Scatter for RoughThinGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: true, film: None } = kind else {
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: true, film: None, dispersion: None } = kind
+        else {
             return None;
         };
         if facets.distribution == MicrofacetDistribution::Phong {

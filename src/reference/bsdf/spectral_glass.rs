@@ -8,6 +8,7 @@ use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::spectral_dielectric::SpectralDielectric;
 use super::view::View;
 use crate::scene::MaterialKind;
+use crate::scene::material::iors;
 use crate::spectrum::Spectrum;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,9 +39,11 @@ impl SpectralGlass {
 
 impl Scatter for SpectralGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::Glass { ior, reflectance, transmittance, thin: _, film: Some(film) } = kind else { return None };
-        let iors = Spectrum::grey(*ior);
-        Some(Self { dielectric: SpectralDielectric::new(iors, [reflectance, transmittance], Some(film), lookup) })
+        let MaterialKind::Glass { ior, reflectance, transmittance, film, dispersion, .. } = kind else { return None };
+        let is_spectral = film.is_some() || dispersion.is_some();
+        let iors = iors(*ior, *dispersion);
+        let dielectric = || SpectralDielectric::new(iors, [reflectance, transmittance], film.as_ref(), lookup);
+        is_spectral.then(|| Self { dielectric: dielectric() })
     }
 
     fn sampling_weight(&self) -> f64 {

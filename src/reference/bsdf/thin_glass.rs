@@ -17,7 +17,9 @@ pub struct ThinGlass {
 
 impl Scatter for ThinGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::Glass { ior, reflectance, transmittance, thin: true, film: None } = kind else { return None };
+        let MaterialKind::Glass { ior, reflectance, transmittance, thin: true, film: None, dispersion: None } = kind else {
+            return None;
+        };
         Some(Self { dielectric: Dielectric::new(*ior, reflectance, transmittance, lookup) })
     }
 

@@ -114,12 +114,19 @@ fn environments(cases: &mut Vec<Case>) {
         ("mirror", MaterialKind::Mirror { reflectance: input }, tint),
         (
             "glass 1.5",
-            MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false, film: None },
+            MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false, film: None, dispersion: None },
             Spectrum::WHITE,
         ),
         (
             "glass 1/1.5",
-            MaterialKind::Glass { ior: 1.0 / 1.5, reflectance: one, transmittance: one, thin: false, film: None },
+            MaterialKind::Glass {
+                ior: 1.0 / 1.5,
+                reflectance: one,
+                transmittance: one,
+                thin: false,
+                film: None,
+                dispersion: None,
+            },
             Spectrum::WHITE,
         ),
     ];

@@ -87,6 +87,7 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         reflectance: constant(a),
         transmittance: constant(b),
         film: None,
+        dispersion: None,
     };
     let internal = 1.0 - (1.0 - 0.091_777_6) / 2.25;
     let plastic = |nonlinear| MaterialKind::Plastic {
@@ -97,7 +98,15 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
     };
     let one = constant(Spectrum::WHITE);
     let facets = Microfacets::ggx(ColorInput::grey(1.0));
-    let rough_plate = MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: one, transmittance: one, thin: true, film: None };
+    let rough_plate = MaterialKind::RoughGlass {
+        ior: 1.5,
+        facets,
+        reflectance: one,
+        transmittance: one,
+        thin: true,
+        film: None,
+        dispersion: None,
+    };
     let principled = |base: Spectrum, metallic: f64, roughness: f64, transmission: f64| {
         MaterialKind::Principled(Box::new(plain_principled(base, metallic, roughness, transmission)))
     };
@@ -129,7 +138,14 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         // Both boundaries reflect, and what goes to and fro between them: 2F/(1 + F).
         (
             "thin glass",
-            MaterialKind::Glass { ior: 1.5, reflectance: constant(a), transmittance: constant(b), thin: true, film: None },
+            MaterialKind::Glass {
+                ior: 1.5,
+                reflectance: constant(a),
+                transmittance: constant(b),
+                thin: true,
+                film: None,
+                dispersion: None,
+            },
             (0.08 * a + 0.96 * b) / 1.04,
         ),
         // The light that meets one microfacet alone, and is not reflected, goes through.
@@ -166,6 +182,10 @@ fn plain_principled(base: Spectrum, metallic: f64, roughness: f64, transmission:
         specular: one,
         specular_color: one,
         transmission: grey(transmission),
+        diffuse_transmission: ColorInput::grey(0.0),
+        diffuse_transmission_color: ColorInput::grey(1.0),
+        thin_film: None,
+        thin_film_share: ColorInput::grey(0.0),
         thin: true,
         attenuation: None,
         clearcoat: zero,

@@ -48,7 +48,11 @@ pub fn emissive(scene: &mut Scene, radiance: Spectrum) -> MaterialId {
 
 pub fn glass(scene: &mut Scene, ior: f64) -> MaterialId {
     let one = ColorInput::grey(1.0);
-    material(scene, MaterialKind::Glass { ior, reflectance: one, transmittance: one, thin: false, film: None }, None)
+    material(
+        scene,
+        MaterialKind::Glass { ior, reflectance: one, transmittance: one, thin: false, film: None, dispersion: None },
+        None,
+    )
 }
 
 pub fn shape(scene: &mut Scene, geometry: Geometry, material: MaterialId) {

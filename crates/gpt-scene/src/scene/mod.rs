@@ -47,8 +47,8 @@ pub use light::{
     OutsideParameters, PointLight, Projector, Sky, SpotLight, ThrownPicture,
 };
 pub use material::{
-    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking,
-    Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled, ThinFilm,
+    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, LobeKind, LobeParameters, LobeSupport,
+    Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled, ThinFilm,
 };
 pub use media::{Filling, Media};
 pub use medium::{Medium, MediumId, Phase, PhaseKind, PhaseLobe};

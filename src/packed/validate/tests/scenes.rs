@@ -131,8 +131,15 @@ fn everything() -> Scene {
     let channel =
         |texture, channel| ColorInput::Channel(ChannelInput { texture, channel, factor: Spectrum::grey(0.5), is_squared: false });
     let (grey, of) = (ColorInput::grey(0.5), ColorInput::Texture);
-    let rough =
-        |facets| MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey, transmittance: grey, thin: false, film: None };
+    let rough = |facets| MaterialKind::RoughGlass {
+        ior: 1.5,
+        facets,
+        reflectance: grey,
+        transmittance: grey,
+        thin: false,
+        film: None,
+        dispersion: None,
+    };
     let plastic =
         |interface| MaterialKind::Plastic { interface, reflectance: of(0), specular_reflectance: grey, nonlinear: true };
     let brushed = MaterialKind::Conductor {

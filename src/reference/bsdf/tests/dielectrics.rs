@@ -62,6 +62,7 @@ fn rough_glass_of_ior_one_is_not_there() {
         reflectance: ColorInput::grey(1.0),
         transmittance: ColorInput::grey(1.0),
         film: None,
+        dispersion: None,
     };
     let scene = Scene::default();
     let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false };

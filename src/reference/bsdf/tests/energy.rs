@@ -119,8 +119,12 @@ fn scattering_is_reciprocal() {
             let f = |wo: DVec3, wi: DVec3| lobe.evaluate(&View::new(wo, DVec3::Z, DVec3::Z), wi).value / wi.z.abs();
             let (there, back) = (f(wo, wi), f(wi, wo));
             let through = wo.z * wi.z < 0.0;
-            let index = |w: DVec3| if w.z > 0.0 { 1.0 } else { ior };
-            let difference = there / index(wo).powi(2) - back / index(wi).powi(2);
+            let iors = match lobe {
+                Lobe::RoughSpectralGlass(glass) => glass.dielectric.iors,
+                _ => Spectrum::grey(ior),
+            };
+            let index = |w: DVec3| if w.z > 0.0 { Spectrum::WHITE } else { iors };
+            let difference = there / (index(wo) * index(wo)) - back / (index(wi) * index(wi));
             assert!(difference.to_vector().length() <= 1e-9 * there.to_vector().length(), "{name}: {wo} {wi}: {there} {back}");
             if !there.is_black() {
                 *(if through { &mut transmitted } else { &mut reflected }) += 1;

@@ -74,7 +74,7 @@ fn a_blend_with_one_part_is_that_part() {
             mirror_kind(0.8),
             conductor,
             phong,
-            MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false, film: None },
+            MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false, film: None, dispersion: None },
         ]
     };
     for mode in [BlendMode::Mixture, BlendMode::Pick] {
@@ -112,7 +112,8 @@ fn diffuse_lobes_are_one_lobe_of_the_mean() {
 #[test]
 fn lobes_are_chosen_in_order_by_weight_times_reflectance() {
     let white = ColorInput::grey(1.0);
-    let glass = MaterialKind::Glass { ior: 1.5, reflectance: white, transmittance: white, thin: false, film: None };
+    let glass =
+        MaterialKind::Glass { ior: 1.5, reflectance: white, transmittance: white, thin: false, film: None, dispersion: None };
     // Mirror 0.5 × 0.8, glass 0.25 × 1, diffuse 0.25 × 0.6: diffuse 0.15, mirror 0.40, glass 0.25 of 0.80 in all.
     let kinds = vec![mirror_kind(0.8), glass, grey(0.6), blend(1, 2, 0.5), blend(0, 3, 0.5)];
     let blended = bsdf(&scene(kinds, BlendMode::Mixture), 0.5);

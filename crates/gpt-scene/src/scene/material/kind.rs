@@ -1,6 +1,7 @@
 //! The types of materials, and the lobes that they scatter by.
 
 use super::blend_weight::BlendWeight;
+use super::dispersion::Dispersion;
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
 use super::parameters::{self, ParameterType, place};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
@@ -25,9 +26,18 @@ pub enum MaterialKind {
     /// Where ρ + τ is more than 1, both are divided by it.
     DiffuseTransmission { reflectance: ColorInput, transmittance: ColorInput },
     /// Smooth dielectric with exact Fresnel equations. `ior` is inside over outside, the outside being where the normal points; a `thin` one
-    /// is a plate of both boundaries, which light crosses without changing its direction. Glass with a `film` is not `thin`.
-    Glass { ior: f64, reflectance: ColorInput, transmittance: ColorInput, thin: bool, film: Option<ThinFilm> },
-    /// Rough dielectric; of a `thin` one every microfacet is a thin plate. Glass with a `film` is not `thin`, nor of Phong's distribution.
+    /// is a plate of both boundaries, which light crosses without changing its direction. Glass with a `film`, or of which `dispersion` says how `ior`, the
+    /// index at the line d, depends on the wavelength, is not `thin`.
+    Glass {
+        ior: f64,
+        reflectance: ColorInput,
+        transmittance: ColorInput,
+        thin: bool,
+        film: Option<ThinFilm>,
+        dispersion: Option<Dispersion>,
+    },
+    /// Rough dielectric; of a `thin` one every microfacet is a thin plate. Glass with a `film` or `dispersion` is not `thin`, nor of
+    /// Phong's distribution.
     RoughGlass {
         ior: f64,
         facets: Microfacets,
@@ -35,6 +45,7 @@ pub enum MaterialKind {
         transmittance: ColorInput,
         thin: bool,
         film: Option<ThinFilm>,
+        dispersion: Option<Dispersion>,
     },
     /// A diffuse base below a dielectric surface; `nonlinear` takes account of how the colour deepens as light goes up and down within.
     Plastic { interface: PlasticInterface, reflectance: ColorInput, specular_reflectance: ColorInput, nonlinear: bool },
@@ -166,29 +177,15 @@ impl MaterialKind {
             Self::DiffuseTransmission { reflectance, transmittance } => {
                 LobeParameters { color1: Some(transmittance), ..LobeParameters::new(LobeKind::DiffuseTransmission, reflectance) }
             }
-            Self::Glass { ior, reflectance, transmittance, thin: _, film: Some(film) } => {
-                spectral_glass(Spectrum::grey(ior), Some(film), [reflectance, transmittance], ior)
-            }
-            Self::Glass { ior, reflectance, transmittance, thin, film: None } => LobeParameters {
+            Self::Glass { ior, reflectance, transmittance, thin, film: None, dispersion: None } => LobeParameters {
                 color1: Some(transmittance),
                 ior: Some(ior),
                 ..LobeParameters::new(if thin { LobeKind::ThinGlass } else { LobeKind::Glass }, reflectance)
             },
-            Self::RoughGlass { ior, facets, reflectance, transmittance, thin: _, film: Some(film) } => {
-                let glass = spectral_glass(Spectrum::grey(ior), Some(film), [reflectance, transmittance], ior);
-                if facets.are_smooth() {
-                    return Some(LobeParameters { roughness: Some(facets.alpha), ..glass });
-                }
-                let [thickness, film] = further_of_film(Some(film));
-                let further = parameters::RoughSpectralGlass {
-                    iors: ColorInput::grey(ior),
-                    width_across: facets.alpha_v.unwrap_or(facets.alpha),
-                    thin_film_thickness: thickness,
-                    thin_film: film,
-                };
-                LobeParameters { lobe: LobeKind::RoughSpectralGlass, further: further.list(), ..glass }.with_facets(&facets)
+            Self::Glass { ior, reflectance, transmittance, film, dispersion, .. } => {
+                spectral_glass(ior, dispersion, film, [reflectance, transmittance])
             }
-            Self::RoughGlass { ior, facets, reflectance, transmittance, thin, film: None } => {
+            Self::RoughGlass { ior, facets, reflectance, transmittance, thin, film: None, dispersion: None } => {
                 let lobe = match (facets.distribution, thin) {
                     (MicrofacetDistribution::Phong, _) => LobeKind::PhongGlass,
                     (_, true) if facets.are_smooth() => LobeKind::ThinGlass,
@@ -206,6 +203,20 @@ impl MaterialKind {
                     _ => parameters::RoughGlass { width_across }.list(),
                 });
                 LobeParameters { further: further.unwrap_or_default(), ..glass.with_facets(&facets) }
+            }
+            Self::RoughGlass { ior, facets, reflectance, transmittance, film, dispersion, .. } => {
+                let glass = spectral_glass(ior, dispersion, film, [reflectance, transmittance]);
+                if facets.are_smooth() {
+                    return Some(LobeParameters { roughness: Some(facets.alpha), ..glass });
+                }
+                let [thin_film_thickness, thin_film] = further_of_film(film);
+                let further = parameters::RoughSpectralGlass {
+                    iors: ColorInput::Constant(iors(ior, dispersion)),
+                    width_across: facets.alpha_v.unwrap_or(facets.alpha),
+                    thin_film_thickness,
+                    thin_film,
+                };
+                LobeParameters { lobe: LobeKind::RoughSpectralGlass, further: further.list(), ..glass }.with_facets(&facets)
             }
             Self::Plastic { ref interface, reflectance, specular_reflectance, nonlinear } => {
                 let internal_reflectance = ColorInput::grey(interface.internal_reflectance());
@@ -255,9 +266,10 @@ impl MaterialKind {
 }
 
 /// Smooth glass whose channels are not reflected or bent alike.
-fn spectral_glass(iors: Spectrum, film: Option<ThinFilm>, colors: [ColorInput; 2], ior: f64) -> LobeParameters {
+fn spectral_glass(ior: f64, dispersion: Option<Dispersion>, film: Option<ThinFilm>, colors: [ColorInput; 2]) -> LobeParameters {
     let [thin_film_thickness, thin_film] = further_of_film(film);
-    let further = parameters::SpectralGlass { iors: ColorInput::Constant(iors), thin_film_thickness, thin_film };
+    let iors = ColorInput::Constant(iors(ior, dispersion));
+    let further = parameters::SpectralGlass { iors, thin_film_thickness, thin_film };
     LobeParameters {
         form: form_of_film(film),
         color1: Some(colors[1]),
@@ -265,6 +277,11 @@ fn spectral_glass(iors: Spectrum, film: Option<ThinFilm>, colors: [ColorInput; 2
         further: further.list(),
         ..LobeParameters::new(LobeKind::SpectralGlass, colors[0])
     }
+}
+
+/// The indices of refraction of the channels.
+pub fn iors(ior: f64, dispersion: Option<Dispersion>) -> Spectrum {
+    dispersion.map_or(Spectrum::grey(ior), |dispersion| dispersion.channels(ior))
 }
 
 /// The thickness of a film, and its index of refraction with what is added to the thickness.

@@ -25,6 +25,8 @@ fn coat_normals(scene: &mut Scene, texture: usize, scale: f64) {
         specular: one,
         specular_color: one,
         transmission: zero,
+        diffuse_transmission: zero,
+        diffuse_transmission_color: one,
         thin: false,
         attenuation: None,
         clearcoat: one,
@@ -35,6 +37,8 @@ fn coat_normals(scene: &mut Scene, texture: usize, scale: f64) {
         anisotropy: None,
         anisotropy_direction: None,
         anisotropy_rotation_degrees: 0.0,
+        thin_film: None,
+        thin_film_share: zero,
         masking: Masking::Separable,
         energy_compensation: false,
     }));
@@ -66,7 +70,8 @@ fn scene() -> Scene {
     }
     let grey = ColorInput::grey(0.5);
     let textured = MaterialKind::Diffuse { reflectance: ColorInput::Texture(0) };
-    let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey, thin: false, film: None };
+    let glass =
+        MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey, thin: false, film: None, dispersion: None };
     let metal = MaterialKind::Conductor {
         fresnel: ConductorFresnel::Complex { eta: Spectrum::WHITE, k: Spectrum::WHITE },
         facets: Microfacets::ggx(grey),
@@ -228,8 +233,14 @@ fn each_mistake_is_named_with_its_part() {
         (
             |s| {
                 let white = ColorInput::grey(1.0);
-                s.materials[2].kind =
-                    MaterialKind::Glass { ior: 0.0, reflectance: white, transmittance: white, thin: false, film: None };
+                s.materials[2].kind = MaterialKind::Glass {
+                    ior: 0.0,
+                    reflectance: white,
+                    transmittance: white,
+                    thin: false,
+                    film: None,
+                    dispersion: None,
+                };
             },
             "material `glass`: the index of refraction must be positive",
         ),

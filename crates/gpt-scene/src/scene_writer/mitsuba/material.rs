@@ -26,6 +26,14 @@ impl<'w> Writer<'w> {
         if material.contains_key("thin_film_thickness") {
             self.drop("thin_film_thickness", &place, "there is no film");
         }
+        if material.contains_key("abbe_number") {
+            self.drop("abbe_number", &place, "all colours are bent alike");
+        }
+        for key in ["cauchy", "sellmeier"] {
+            if material.contains_key(key) {
+                self.drop(key, &place, "an index of refraction of 1.5 is taken");
+            }
+        }
         if material.contains_key("diffuse_transmission") {
             self.drop("diffuse_transmission", &place, "light does not come through");
         }

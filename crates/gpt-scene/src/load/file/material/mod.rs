@@ -5,6 +5,7 @@ pub mod blend_weight;
 pub mod conductor;
 pub mod diffuse;
 pub mod diffuse_transmission;
+pub mod dispersion;
 pub mod emissive;
 pub mod glass;
 pub mod glossy;

@@ -3,15 +3,16 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::keys::{MaterialKeys, ior_or_default, material_keys};
+use super::dispersion::{IndexKeys, Sellmeier, write_index};
+use super::keys::{MaterialKeys, material_keys};
 use super::roughness::{FacetKeys, MaskingEntry, write_facets};
 use super::thin_film::{ThinFilmKeys, write_thin_film};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, FilmIndex, Fraction, IndexOfRefraction, Located, NonNegative, Positive};
-use crate::load::file::writer::{Writer, flag, line, number};
+use crate::load::file::value::{Checked, FilmIndex, Fraction, IndexOfRefraction, Located, NonNegative, Positive, Vector};
+use crate::load::file::writer::{Writer, flag};
 use crate::scene::{Masking, MaterialKind, MicrofacetDistribution, Microfacets};
 
 material_keys! {
@@ -25,6 +26,14 @@ material_keys! {
             "alpha_u": ["alpha_v"], "alpha_v": ["alpha_u"], "roughness_u": ["roughness_v"], "roughness_v": ["roughness_u"],
             "thin_film_offset": ["thin_film_thickness"], "thin_film_ior": ["thin_film_thickness"],
         } },
+        { "not": { "anyOf": [
+            { "required": ["cauchy", "sellmeier"] }, { "required": ["cauchy", "ior"] }, { "required": ["cauchy", "abbe_number"] },
+            { "required": ["sellmeier", "ior"] }, { "required": ["sellmeier", "abbe_number"] },
+        ] } },
+        {
+            "if": { "anyOf": [{ "required": ["abbe_number"] }, { "required": ["cauchy"] }, { "required": ["sellmeier"] }] },
+            "then": { "properties": { "thin": { "const": false } }, "not": { "required": ["exponent"] } },
+        },
         { "not": { "required": ["thin_film_thickness", "thin"], "properties": { "thin": { "const": true } } } },
         {
             "if": { "required": ["exponent"] },
@@ -37,7 +46,13 @@ material_keys! {
     ]))]
     {
         /// Inside over outside, 1.5 when left out.
-        ior: Option<Checked<IndexOfRefraction>>,
+        ior: Option<Located<Checked<IndexOfRefraction>>>,
+        /// Abbe's number (n_d - 1)/(n_F - n_C), with `ior` the index n_d: light of each channel is bent by an index of its own. All are bent alike when left out.
+        abbe_number: Option<Located<Checked<Positive>>>,
+        /// In place of `ior`: coefficients of Cauchy's formula n = A + B/λ² + C/λ⁴, λ in micrometres.
+        cauchy: Option<Located<Vector>>,
+        /// In place of `ior`: coefficients of Sellmeier's formula n² = 1 + Σ bᵢ·λ²/(λ² - cᵢ), λ in micrometres.
+        sellmeier: Option<Located<Sellmeier>>,
         /// Width of the microfacets.
         alpha: Option<Located<Scalar<Fraction>>>,
         /// alpha = roughness²
@@ -93,6 +108,7 @@ impl MaterialKeys for Keys {
         "ior = 1.4\nalpha_u = 0.5\nalpha_v = 0.15\ntransmittance = [0.4, 0.8, 0.9]",
         "ior = 1.6\nalpha = 0.3\nthin = true\ntransmittance = [0.4, 0.8, 0.9]",
         "roughness_u = 0.3\nroughness_v = 0.7\ndistribution = \"beckmann\"\nthin = true",
+        "ior = 1.5\nabbe_number = 12\nalpha = 0.2\ntransmittance = [0.4, 0.8, 0.9]",
         "ior = 1.7\nalpha = 0.3\nthin_film_thickness = 300\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]",
     ];
 
@@ -115,8 +131,22 @@ impl MaterialKeys for Keys {
         if let (Some((name, place)), Some(_)) = (film.place(), &self.exponent) {
             return Err(resolver.error(place, format!("`{name}` is for microfacets: distribution = \"phong\" has none")));
         }
+        let index = IndexKeys {
+            ior: self.ior.as_ref(),
+            abbe_number: self.abbe_number.as_ref(),
+            cauchy: self.cauchy.as_ref(),
+            sellmeier: self.sellmeier.as_ref(),
+        };
+        let (ior, dispersion) = index.resolve(resolver)?;
+        if let (Some((name, place)), true) = (index.place(), thin) {
+            return Err(resolver.error(place, format!("`{name}` has no effect: a `thin` wall does not bend light")));
+        }
+        if let (Some((name, place)), Some(_)) = (index.place(), &self.exponent) {
+            return Err(resolver.error(place, format!("`{name}` is for microfacets: distribution = \"phong\" has none")));
+        }
         Ok(MaterialKind::RoughGlass {
-            ior: ior_or_default(self.ior),
+            ior,
+            dispersion,
             facets,
             reflectance: resolver.colour_or_white(&self.reflectance)?,
             transmittance: resolver.colour_or_white(&self.transmittance)?,
@@ -126,9 +156,11 @@ impl MaterialKeys for Keys {
     }
 
     fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
-        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin, film } = kind else { return String::new() };
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin, film, dispersion } = kind else {
+            return String::new();
+        };
         let tints = writer.input("reflectance", reflectance) + &writer.input("transmittance", transmittance);
-        line("ior", &number(*ior))
+        write_index(*ior, dispersion.as_ref())
             + &write_facets(facets, writer)
             + &tints
             + &flag("thin", *thin)

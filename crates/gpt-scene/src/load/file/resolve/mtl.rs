@@ -165,6 +165,7 @@ impl Resolver<'_> {
             transmittance: ColorInput::Constant(transmittance),
             thin: false,
             film: None,
+            dispersion: None,
         }
     }
 

@@ -26,7 +26,8 @@ pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
         let tint = Some(input).filter(|input| input.constant() != Some(Spectrum::WHITE));
         tint.map(|input| plugin.possible(input.colour(&place))).transpose()
     };
-    let (ior, reflectance, transmittance) = (Some(plugin.possible(Checked::of(ior))?), tint(reflectance)?, tint(transmittance)?);
+    let (ior, reflectance, transmittance) =
+        (Some(place.at(plugin.possible(Checked::of(ior))?)), tint(reflectance)?, tint(transmittance)?);
     if plugin.name != "roughdielectric" {
         let thin = plugin.name == "thindielectric";
         let keys = glass::Keys { ior, reflectance, transmittance, thin, ..Default::default() };
