@@ -9,7 +9,7 @@ use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
-use gpt::scene::{Guiding, Scene};
+use gpt::scene::{DistanceSampling, Guiding, Scene};
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
@@ -42,6 +42,9 @@ const OF_DEVICES: [&str; 26] = [
     "UNIFORM_TABLES",
 ];
 
+/// Switches of settings that no built-in scene has: `tests/gpu/agreement/media.rs` has scenes of them.
+const OF_SETTINGS: [&str; 2] = ["BY_ANGLE", "BY_DISTANCE"];
+
 /// The switches that scenes compile in on a device.
 fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -> BTreeSet<&'static str> {
     let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
@@ -69,7 +72,8 @@ fn built_in_scenes_use_every_switch() {
     let mut scenes = compiled_in(&built_in, &hardware, &PlanOptions::default());
     scenes.extend(compiled_in(&in_frames, &hardware, &PlanOptions::default()));
     let every = SWITCHES.iter().filter(|switch| !switch.debug).map(|switch| switch.name);
-    let missing: Vec<_> = every.clone().filter(|name| !scenes.contains(name) && !OF_DEVICES.contains(name)).collect();
+    let is_elsewhere = |name: &&str| OF_DEVICES.contains(name) || OF_SETTINGS.contains(name);
+    let missing: Vec<_> = every.clone().filter(|name| !scenes.contains(name) && !is_elsewhere(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?}");
 
     let software =
@@ -96,6 +100,11 @@ fn built_in_scenes_use_every_switch() {
     let mut clamped = built_in[0].clone();
     clamped.render.clamp = 1.0;
     anywhere.extend(compiled_in(&[clamped], &hardware, &PlanOptions::default()));
+    for distance_sampling in [DistanceSampling::Distance, DistanceSampling::Equiangular] {
+        let mut mist = load::load(Some("mist")).expect("it is built in");
+        mist.render.distance_sampling = distance_sampling;
+        anywhere.extend(compiled_in(&[mist], &hardware, &PlanOptions::default()));
+    }
     let missing: Vec<_> = every.filter(|name| !anywhere.contains(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");
 }

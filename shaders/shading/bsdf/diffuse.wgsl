@@ -38,6 +38,6 @@ fn sample_lambert(reflectance: Spectrum, surface: Surface, u: f32, v: f32) -> Bs
     if cosine <= 0.0 || dot(wi, surface.facing_normal) <= 0.0 {
         return no_sample();
     }
-    let weight = reflectance * select(1.0, 2.0 * cosine, HAS_UNIFORM_HEMISPHERE);
+    let weight = reflectance * hemisphere_weight(cosine);
     return BsdfSample(wi, weight, hemisphere_pdf(cosine), 1.0, false);
 }

@@ -50,6 +50,6 @@ fn sample_diffuse_transmission(lobe: Lobe, surface: Surface, wo: vec3<f32>, choi
         return no_sample();
     }
     let probability = select(1.0 - sides.choose_back, sides.choose_back, is_back);
-    let weight = select(sides.on, sides.back, is_back) * (select(1.0, 2.0 * cosine, HAS_UNIFORM_HEMISPHERE) / probability);
+    let weight = select(sides.on, sides.back, is_back) * (hemisphere_weight(cosine) / probability);
     return BsdfSample(wi, weight, probability * hemisphere_pdf(cosine), 1.0, false);
 }

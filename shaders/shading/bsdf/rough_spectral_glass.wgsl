@@ -1,4 +1,5 @@
 // Rough glass of microfacets whose channels are not bent or reflected alike.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/microfacet/dielectric.wgsl
 #import shading/microfacet/spectral_dielectric.wgsl

@@ -15,6 +15,11 @@ fn sample_hemisphere(surface: Surface, u: f32, v: f32) -> vec4<f32> {
     return vec4<f32>(frame_to_world(frame_from_normal(surface.shading_normal), local), cosine);
 }
 
+// The weight of such a direction under a reflectance of 1: cosine / (π · density).
+fn hemisphere_weight(cosine: f32) -> f32 {
+    return select(1.0, 2.0 * cosine, HAS_UNIFORM_HEMISPHERE);
+}
+
 fn hemisphere_pdf(cosine: f32) -> f32 {
     return select(cosine, 0.5, HAS_UNIFORM_HEMISPHERE) * INVERSE_PI;
 }

@@ -1,5 +1,4 @@
 // The boundary of a dielectric that does not treat all channels alike; src/reference/bsdf/spectral_dielectric.rs says how channels share paths.
-#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/microfacet/dielectric.wgsl
 #import shading/microfacet/fresnel.wgsl
@@ -19,7 +18,7 @@ struct SpectralWays {
     reflected: Spectrum,
     transmitted: Spectrum,
     reflection: f32,
-    // Of the refraction by each channel; all 0 where nothing is scattered.
+    // The share that each channel refracts; all 0 where nothing is scattered.
     transmission: Spectrum,
 }
 

@@ -31,7 +31,7 @@ use crate::spectrum::Spectrum;
 /// material    coat·Fc·Mc + (1 − coat·Fc) · sheen              Fc = 0.04 + 0.96·(1 − cosθo)⁵
 /// ```
 ///
-/// Where a film lies on the surface, F and c + (1 − c)·s are what it reflects over a base of as much reflectance along the normal, by its share
+/// On a surface with a film, F and c + (1 − c)·s are what it reflects over a base of as much reflectance along the normal, by its share
 /// ([`ThinFilm`]). w and k are the specular factor and colour, t is the transmission, d the share of diffuse transmission and e its colour; there h is that of
 /// wi mirrored in the surface. T is the microfacets' transmission: of a thin wall M mirrored in the
 /// surface, else Walter's refraction. Its h is that of the facet which bends wi to wo; |wo·h| is taken on the side of air, and where a facet
@@ -118,7 +118,7 @@ impl Principled {
         Split { reflected, passed: (1.0 - self.metallic) * (1.0 - dielectric.max_component()) }
     }
 
-    /// What a layer reflects by its reflectance along the normal: by Schlick's approximation, or as a film on it does.
+    /// The share that a layer reflects by its reflectance along the normal: by Schlick's approximation, or as a film on it does.
     fn fresnel(&self, cosine: f64, normal_incidence: Spectrum) -> Spectrum {
         let plain = schlick_reflectance(cosine, normal_incidence);
         match self.film {

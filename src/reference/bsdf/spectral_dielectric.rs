@@ -23,7 +23,7 @@ pub struct SpectralDielectric {
     pub film: Option<ThinFilm>,
 }
 
-/// What a facet does to light, before tints, and the probabilities of its ways.
+/// The shares of light that a facet sends each way, before tints, and the probabilities of its ways.
 #[derive(Debug, Clone, Copy)]
 pub struct Ways {
     pub reflected: Spectrum,

@@ -17,7 +17,7 @@ pub struct SpectralGlass {
 }
 
 impl SpectralGlass {
-    /// As [`super::dielectric::Dielectric::sample_delta`], by channel.
+    /// Does the same as [`super::dielectric::Dielectric::sample_delta`], by channel.
     pub fn sample_delta(dielectric: &SpectralDielectric, view: &View, u_lobe: f64) -> Option<BsdfSample> {
         let ways = dielectric.ways(view, view.wo.dot(view.normal()))?;
         if u_lobe < ways.reflection {

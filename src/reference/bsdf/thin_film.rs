@@ -76,7 +76,7 @@ impl ThinFilm {
         (0.5 * sum).clamp(0.0, 1.0)
     }
 
-    /// The same of a base by what each channel of it reflects along the normal without a film.
+    /// The reflectance over a base by what each channel of it reflects along the normal without a film.
     pub fn reflectance_over(&self, cosine: f64, normal_incidence: Spectrum) -> Spectrum {
         let of = |channel: usize, normal_incidence: f64| {
             let root = normal_incidence.min(MOST_REFLECTED_BY_BASE).sqrt();

@@ -21,7 +21,7 @@ pub struct View {
     /// wo is on the surface's front side.
     pub front: bool,
     pub geometric_normal: DVec3,
-    /// What the path carries to the surface, its throughput.
+    /// The throughput of the path up to the surface.
     carried: Spectrum,
     /// Around the shading normal.
     pub frame: Frame,

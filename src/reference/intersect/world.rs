@@ -49,7 +49,7 @@ pub struct Surface {
     pub second_tangents: Option<Tangents>,
     /// A ray of the camera met it that nothing has scattered.
     pub by_camera: bool,
-    /// What the path carries to it.
+    /// The throughput of the path up to it.
     pub carried: Spectrum,
 }
 

@@ -41,7 +41,7 @@ impl Medium {
         if self.phase.0.iter().any(|lobe| lobe.weight.is_nan() || lobe.weight < 0.0) || (sum - 1.0).abs() > 1e-6 {
             return Err(format!("the weights of its phase function must be from 0 to 1 and sum up to 1, not to {sum}"));
         }
-        let is_wrong = |lobe: &PhaseLobe| matches!(lobe.kind, PhaseKind::HenyeyGreenstein { g } if !(g.abs() < 1.0));
+        let is_wrong = |lobe: &PhaseLobe| matches!(lobe.kind, PhaseKind::HenyeyGreenstein { g } if g.is_nan() || g.abs() >= 1.0);
         if self.phase.0.iter().any(is_wrong) {
             return Err("the mean cosine of its phase function must be above -1 and below 1".into());
         }

@@ -174,7 +174,7 @@ fn each_mistake_is_named_with_its_part() {
         ),
         (|s| medium(s).phase.0.clear(), "medium `fog`: the weights of its phase function"),
         (|s| s.camera_medium = Some(0), "camera: there is no medium 0"),
-        (|s| s.materials[0].interior = Some(3), "material `a`: there is no medium 3"),
+        (|s| s.materials[0].interior = Some(3), "material `grey`: there is no medium 3"),
         (|s| s.film.size = [0, 4], "film: size: a picture of 0 x 4 pixels is empty"),
         (|s| s.film.size = [1 << 16, 1 << 16], "film: size: a picture of 65536 x 65536 pixels is too large"),
         (|s| s.film.filter.radius = f64::NAN, "film: filter: expected a radius from 0.5 to 16 pixels, found NaN"),
