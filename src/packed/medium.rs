@@ -29,7 +29,7 @@ pub struct PackedMedium {
     pub extinction: [f32; 3],
     pub flags: u32,
     pub scattering: [f32; 3],
-    /// The first of its phase lobes, and above [`PHASE_COUNT_SHIFT`] their number.
+    /// The first of its phase lobes, and above `PHASE_COUNT_SHIFT` their number.
     pub phase: u32,
     pub emission: [f32; 3],
     pub unused: u32,

@@ -1,6 +1,6 @@
 //! The scene as a person wrote it, resolved: names looked up, files read, units known, nothing of the GPU.
 //!
-//! A [`Scene`] is plain data. [`crate::packed`] packs it for the device, [`crate::reference`] renders it as it stands, so
+//! A [`Scene`] is plain data. The crate `gpt-pathtracer` packs it for the device, its reference renders it as it stands, so
 //! that a mistake in packing shows as a difference between the two.
 //!
 //! Conventions: right-handed, +Y up by default, lengths in scene units, angles in degrees as written and in radians where a
