@@ -71,6 +71,8 @@ impl References {
     /// The id is another plugin's.
     pub fn alias(&mut self, new: String, of: String, place: Origin) -> Result<(), SceneError> {
         self.check_new(&new, &place)?;
+        // Chains of aliases that are written in their order stay one step long.
+        let of = self.aliases.get(&of).map_or(of, |alias| alias.of.clone());
         self.aliases.insert(new, Alias { of, place });
         Ok(())
     }
