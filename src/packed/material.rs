@@ -215,7 +215,7 @@ impl PackedMaterials {
     pub fn new(scene: &Scene, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
         let mut packed = Self::default();
         let media = Media::of(scene);
-        packed.media = PackedMedia::new(&media, of_surfaces, scene)?;
+        packed.media = PackedMedia::new(&media, of_surfaces)?;
         let has_media = !packed.media.is_empty();
         for &id in of_surfaces {
             let mut material = match scene.materials[id].kind {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::error::PackError;
-use crate::scene::{Filling, MaterialId, Media, PhaseKind, PhaseLobe, Scene};
+use crate::scene::{Filling, MaterialId, Media, PhaseKind, PhaseLobe};
 use crate::shader::shared::shared_constants;
 
 /// Media have numbers of 16 bits, from 1.
@@ -60,10 +60,10 @@ impl PackedMedia {
     ///
     /// # Errors
     /// [`PackError::TooManyMedia`] or [`PackError::TooManyPhases`] where their numbers do not fit.
-    pub fn new(media: &Media, of_surfaces: &BTreeSet<MaterialId>, scene: &Scene) -> Result<Self, PackError> {
+    pub fn new(media: &Media, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
         let mut packed = Self::default();
         let counts = |number: usize| media.filling(number).is_some_and(|filling| !filling.is_clear());
-        if scene.camera_medium.is_none() && !of_surfaces.iter().any(|&id| counts(media.behind(id))) {
+        if !of_surfaces.iter().map(|&id| media.behind(id)).chain([media.around_camera]).any(counts) {
             return Ok(packed);
         }
         if media.fillings.len() > MOST_MEDIA {
@@ -96,6 +96,20 @@ impl PackedMedia {
 
     pub fn is_empty(&self) -> bool {
         self.media.is_empty()
+    }
+
+    /// A sentence about a number that leads outside of the tables.
+    pub(super) fn check(&self) -> Result<(), String> {
+        if self.around_camera as usize > self.media.len() {
+            return Err(format!("the camera is within medium {} of {}", self.around_camera, self.media.len()));
+        }
+        for (index, medium) in self.media.iter().enumerate() {
+            let (first, count) = (medium.phase & ((1 << PHASE_COUNT_SHIFT) - 1), medium.phase >> PHASE_COUNT_SHIFT);
+            if count == 0 || (first + count) as usize > self.phases.len() {
+                return Err(format!("medium {index} has {count} phase lobes from {first} on"));
+            }
+        }
+        Ok(())
     }
 
     /// Some medium scatters light.

@@ -2,7 +2,7 @@
 
 use crate::math;
 use crate::sampling::light_tree::cluster;
-use crate::sampling::{roulette, sampler};
+use crate::sampling::{dimension, roulette, sampler};
 use crate::scene::material::principled;
 use crate::scene::media;
 use crate::shader::shared::shared_constants;
@@ -11,6 +11,8 @@ shared_constants!(constants {
     const POINT_ERROR: f32 = math::POINT_ERROR as f32;
     const DIRECTION_ERROR: f32 = math::DIRECTION_ERROR as f32;
     const SHADOW_SHORTENING: f32 = math::SHADOW_SHORTENING as f32;
+    const FIRST_MEDIUM_BLOCK: u32 = dimension::FIRST_MEDIUM_BLOCK;
+    const LEAST_ASIDE: f32 = media::LEAST_ASIDE as f32;
     const FARTHEST: f32 = media::FARTHEST as f32;
     /// Surfaces that a shadow ray goes through at most where they bound media.
     const MOST_CROSSINGS: u32 = media::MOST_CROSSINGS;

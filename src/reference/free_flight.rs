@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use super::intersect::Ray;
 use super::medium::left;
-use crate::scene::media::FARTHEST;
+use crate::scene::media::{FARTHEST, LEAST_ASIDE};
 use crate::scene::{DistanceSampling, Filling};
 use crate::spectrum::Spectrum;
 
@@ -59,16 +59,13 @@ impl Angles {
     }
 }
 
-/// A point nearer to a ray than this, by its distance from the ray's origin, is on it.
-const LEAST_ASIDE: f64 = 1e-4;
-
-/// Flies along the first `length` of a ray through a medium that scatters, with a path of this throughput; about `pivot`, a point that gives light.
-/// `u_event` says whether the path is scattered and how the place is drawn, `u_distance` where.
+/// Flies along the first `length` of a ray through a medium that scatters, with a path of this throughput; about `pivot`, the place of a light, which is
+/// asked for where the path is scattered. `u_event` says whether it is and how the place is drawn, `u_distance` where.
 pub fn fly(
     filling: &Filling,
     throughput: Spectrum,
     (ray, length): (&Ray, f64),
-    pivot: Option<DVec3>,
+    pivot: impl FnOnce() -> Option<DVec3>,
     sampling: DistanceSampling,
     [u_event, u_distance]: [f64; 2],
 ) -> Flight {
@@ -87,7 +84,7 @@ pub fn fly(
         let passes = of_channels(&|extinction| (-extinction * length).exp());
         return Flight { scattered_at: None, weight: left(extinction, length) / passes };
     }
-    let angles = pivot.and_then(|pivot| Angles::new(ray, length, pivot));
+    let angles = pivot().and_then(|pivot| Angles::new(ray, length, pivot));
     let share = match (&angles, sampling) {
         (None, _) | (_, DistanceSampling::Distance) => 0.0,
         (Some(_), DistanceSampling::Equiangular) => 1.0,
@@ -146,7 +143,7 @@ mod tests {
         for row in 0..side {
             for column in 0..side {
                 let numbers = [row, column].map(|index| (f64::from(index) + 0.5) / f64::from(side));
-                let flight = fly(filling, throughput, (&ray, 3.0), pivot, sampling, numbers);
+                let flight = fly(filling, throughput, (&ray, 3.0), || pivot, sampling, numbers);
                 sum += flight.weight * value(flight.scattered_at);
             }
         }
@@ -181,7 +178,7 @@ mod tests {
         let filling = filling(Spectrum::new(1e-3, 1.0, 1e3), Spectrum::WHITE);
         let ray = Ray { origin: DVec3::ZERO, direction: DVec3::X };
         for numbers in [[0.1, 0.3], [0.5, 0.999], [0.9, 0.01], [0.999_999, 0.5]] {
-            let flight = fly(&filling, Spectrum::WHITE, (&ray, 1e6), None, DistanceSampling::Distance, numbers);
+            let flight = fly(&filling, Spectrum::WHITE, (&ray, 1e6), || None, DistanceSampling::Distance, numbers);
             assert!(flight.weight.max_component() <= 3.0 + 1e-9, "{flight:?}");
         }
     }

@@ -193,12 +193,12 @@ impl Integrator {
         let random = |dimension| sampler.open(Dimension::medium(path.vertex, dimension));
         let numbers =
             [MediumDimension::Event, MediumDimension::Distance].map(|dimension| visitor.round_number(random(dimension)));
-        let pivot = if filling.is_lit { self.pivot(path, filling, length, sampler) } else { None };
-        let pivot = pivot.map(|mut pivot| {
+        let pivot = || {
+            let mut pivot = if filling.is_lit { self.pivot(path, filling, length, sampler) } else { None }?;
             let magnitude = pivot.abs().max(path.ray.origin.abs()).max_element();
             visitor.round_point(&mut pivot, magnitude);
-            pivot
-        });
+            Some(pivot)
+        };
         let flight = fly(filling, path.throughput, (&path.ray, length), pivot, self.scene.render.distance_sampling, numbers);
         path.throughput *= flight.weight;
         flight.scattered_at.map(|distance| path.ray.at(distance))

@@ -41,7 +41,7 @@ pub enum MediumDimension {
 }
 
 /// The first block of these numbers, behind those of all vertices that a path can have.
-const FIRST_MEDIUM_BLOCK: u32 = 1 << 27;
+pub const FIRST_MEDIUM_BLOCK: u32 = 1 << 27;
 
 /// One coordinate of the path's point in primary sample space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,21 +2,23 @@
 // same in f64, and says how the place is drawn.
 #import core/layout.wgsl
 #import core/math.wgsl
+#import shading/light/place.wgsl
 #import shading/medium/medium.wgsl
 
-// The first block of the numbers for flights (src/sampling/dimension.rs).
-const FIRST_MEDIUM_BLOCK: u32 = 1u << 27u;
-
-struct Flight {
-    is_scattered: bool,
+// A place where a medium scatters a path.
+struct ScatteringPlace {
     distance: f32,
+    // Transmittance times scattering per unit length, over the density of the place.
     weight: Spectrum,
 }
 
-// A point of a light about which the place may be drawn.
-struct Pivot {
-    exists: bool,
-    point: vec3<f32>,
+// How likely a ray of some length is scattered at all.
+struct FlightChances {
+    // By which a channel is chosen: its share of what the path carries.
+    channels: Spectrum,
+    // The share of each channel that is lost on the way.
+    lost: Spectrum,
+    scatters: f32,
 }
 
 // Equi-angular sampling of a ray's first `length` about a point (Kulla and Fajardo 2012).
@@ -29,15 +31,12 @@ struct Angles {
     turns: f32,
 }
 
-// A point nearer to a ray than this, by its distance from the ray's origin, is on it.
-const LEAST_ASIDE: f32 = 1.0e-4;
-
 // Uniform in (0, 1): all bits, and fine near 0, where rare events are.
 fn open_float(bits: u32) -> f32 {
     return min((f32(bits) + 0.5) * 2.3283064365386963e-10, LARGEST_NUMBER);
 }
 
-fn angles_of(ray: Ray, length_of_ray: f32, pivot: Pivot) -> Angles {
+fn angles_of(ray: Ray, length_of_ray: f32, pivot: LightPlace) -> Angles {
     let to_pivot = pivot.point - ray.origin;
     let next = dot(to_pivot, ray.direction);
     let aside = length(to_pivot - ray.direction * next);
@@ -64,11 +63,6 @@ fn depth_of_share(x: f32) -> f32 {
     return select(-natural_log(1.0 - x), series, x < 0.1);
 }
 
-fn lost_along(extinction: Spectrum, length_of_ray: f32) -> Spectrum {
-    let depth = extinction * length_of_ray;
-    return Spectrum(share_lost(depth.x), share_lost(depth.y), share_lost(depth.z));
-}
-
 // How often the place is drawn by angle.
 fn share_by_angle(angles: Angles, chances: Spectrum, extinction: Spectrum, length_of_ray: f32) -> f32 {
     if HAS_BY_DISTANCE {
@@ -82,42 +76,44 @@ fn share_by_angle(angles: Angles, chances: Spectrum, extinction: Spectrum, lengt
     }
 }
 
-// Flies along a ray of this length through a medium that scatters, with a path of this throughput.
-fn fly(medium: Medium, throughput: Spectrum, ray: Ray, ray_length: f32, pivot: Pivot, random: vec4<u32>) -> Flight {
-    let length_of_ray = min(ray_length, FARTHEST);
-    let u_event = open_float(random.x);
-    let u_distance = open_float(random.y);
-    let chances = throughput / (throughput.x + throughput.y + throughput.z);
-    let lost = lost_along(medium.extinction, length_of_ray);
-    let scatters = dot(chances, lost);
-    if u_event >= scatters {
-        let left = light_left(medium.extinction, length_of_ray);
-        return Flight(false, length_of_ray, left / dot(chances, left));
-    }
+// The chances of a path of this throughput whose ray goes this far through a medium that scatters.
+fn flight_chances(medium: Medium, throughput: Spectrum, length_of_ray: f32) -> FlightChances {
+    let channels = throughput / (throughput.x + throughput.y + throughput.z);
+    let lost = shares_lost(medium.extinction * length_of_ray);
+    return FlightChances(channels, lost, dot(channels, lost));
+}
+
+// The weight of a path that comes to the end of its ray.
+fn passing_weight(medium: Medium, chances: FlightChances, length_of_ray: f32) -> Spectrum {
+    let left = light_left(medium.extinction, length_of_ray);
+    return left / dot(chances.channels, left);
+}
+
+// Draws the place: `choice` chooses between distance and angle and among channels, `u` the place. `pivot` is the place of a light.
+fn scattering_place(medium: Medium, ray: Ray, length_of_ray: f32, chances: FlightChances, pivot: LightPlace, choice: f32, u: f32) -> ScatteringPlace {
     let angles = angles_of(ray, length_of_ray, pivot);
-    let share = share_by_angle(angles, chances, medium.extinction, length_of_ray);
-    let choice = u_event / scatters;
+    let share = share_by_angle(angles, chances.channels, medium.extinction, length_of_ray);
     var distance = 0.0;
     if choice < share {
-        distance = distance_by_angle(angles, u_distance);
+        distance = distance_by_angle(angles, u);
     } else {
         // Each channel by how much is lost of it.
-        let of_channel = (choice - share) / (1.0 - share) * scatters;
-        let parts = chances * lost;
+        let of_channel = (choice - share) / (1.0 - share) * chances.scatters;
+        let parts = chances.channels * chances.lost;
         var channel = 2u;
         channel = select(channel, 1u, of_channel < parts.x + parts.y);
         channel = select(channel, 0u, of_channel < parts.x);
-        distance = depth_of_share(u_distance * lost[channel]) / medium.extinction[channel];
+        distance = depth_of_share(u * chances.lost[channel]) / medium.extinction[channel];
     }
     distance = clamp(distance, 0.0, length_of_ray);
     let left = light_left(medium.extinction, distance);
-    let by_distance = dot(chances, medium.extinction * left);
+    let by_distance = dot(chances.channels, medium.extinction * left);
     var pdf = (1.0 - share) * by_distance;
     if share > 0.0 {
-        pdf += share * scatters * angles_pdf(angles, distance);
+        pdf += share * chances.scatters * angles_pdf(angles, distance);
     }
     if pdf <= 0.0 {
-        return Flight(true, 0.0, BLACK);
+        return ScatteringPlace(0.0, BLACK);
     }
-    return Flight(true, distance, medium.scattering * left / pdf);
+    return ScatteringPlace(distance, medium.scattering * left / pdf);
 }

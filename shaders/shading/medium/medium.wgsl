@@ -40,11 +40,15 @@ fn share_lost(x: f32) -> f32 {
     return select(1.0 - exp(-min(x, 87.0)), series, x < 0.25);
 }
 
+// That of each channel, by its optical depth.
+fn shares_lost(depth: Spectrum) -> Spectrum {
+    return Spectrum(share_lost(depth.x), share_lost(depth.y), share_lost(depth.z));
+}
+
 // The light that a medium gives off along a ray, as it arrives at the ray's origin.
 fn light_given_off(medium: Medium, distance: f32) -> Spectrum {
     let way = min(distance, FARTHEST);
     let depth = medium.extinction * way;
-    let share = Spectrum(share_lost(depth.x), share_lost(depth.y), share_lost(depth.z));
-    let mean_way = select(share / medium.extinction, Spectrum(way), depth < Spectrum(1.0e-9));
+    let mean_way = select(shares_lost(depth) / medium.extinction, Spectrum(way), depth < Spectrum(1.0e-9));
     return medium.emission * mean_way;
 }

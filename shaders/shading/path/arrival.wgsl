@@ -30,14 +30,26 @@ fn radiance_of_medium(path: Path, ray_length: f32) -> Spectrum {
 
 // The place of a light about which the place of scattering is drawn: of the light that light sample 0 of the next vertex chooses, but at the middle of
 // the ray, or as far as light goes.
-fn pivot_of(path: Path, extinction: Spectrum, ray_length: f32, random: vec4<u32>) -> Pivot {
+fn pivot_of(path: Path, extinction: Spectrum, ray_length: f32, vertex: u32) -> LightPlace {
+    let random = random_block(path.pixel, path.sample_in_pass, 2u * vertex);
     let way = min(0.5 * ray_length, 3.0 / (extinction.x + extinction.y + extinction.z));
     let middle = path.ray.origin + way * path.ray.direction;
-    let place = light_place(middle, facing_of(medium_surface(path.ray, way)), random);
-    return Pivot(place.exists, place.point);
+    return light_place(middle, facing_of(medium_surface(path.ray, way)), random);
 }
 
 // A path whose ray of this length leads to vertex number `vertex`.
+fn arrive(path: Path, ray_length: f32, vertex: u32) -> Arrival {
+    if HAS_SCATTERING {
+        return arrive_through_medium(path, ray_length, vertex);
+    }
+    var radiance = BLACK;
+    if HAS_MEDIUM_EMISSION {
+        radiance = radiance_of_medium(path, ray_length);
+    }
+    return Arrival(radiance, arriving_throughput(path, ray_length), 0u, ray_length);
+}
+
+// Such a path in a scene with media that scatter.
 fn arrive_through_medium(path: Path, ray_length: f32, vertex: u32) -> Arrival {
     let number = innermost(path.media);
     var arrival = Arrival(BLACK, path.throughput, 0u, ray_length);
@@ -52,16 +64,24 @@ fn arrive_through_medium(path: Path, ray_length: f32, vertex: u32) -> Arrival {
         arrival.throughput *= light_left(medium.extinction, ray_length);
         return arrival;
     }
-    var pivot = Pivot(false, vec3<f32>(0.0));
+    let length_of_ray = min(ray_length, FARTHEST);
+    let random = random_block(path.pixel, path.sample_in_pass, FIRST_MEDIUM_BLOCK + vertex - 1u);
+    let chances = flight_chances(medium, path.throughput, length_of_ray);
+    let event = open_float(random.x);
+    if event >= chances.scatters {
+        arrival.throughput *= passing_weight(medium, chances, length_of_ray);
+        return arrival;
+    }
+    var pivot = LightPlace(false, vec3<f32>(0.0));
     if HAS_LIGHTS && !HAS_BY_DISTANCE {
         if (medium.flags & MEDIUM_IS_LIT) != 0u {
-            pivot = pivot_of(path, medium.extinction, ray_length, random_block(path.pixel, path.sample_in_pass, 2u * vertex));
+            pivot = pivot_of(path, medium.extinction, ray_length, vertex);
         }
     }
-    let random = random_block(path.pixel, path.sample_in_pass, FIRST_MEDIUM_BLOCK + vertex - 1u);
-    let flight = fly(medium, path.throughput, path.ray, ray_length, pivot, random);
-    arrival.throughput *= flight.weight;
-    arrival.phase = select(0u, medium.phase, flight.is_scattered);
-    arrival.distance = flight.distance;
+    let place =
+        scattering_place(medium, path.ray, length_of_ray, chances, pivot, event / chances.scatters, open_float(random.y));
+    arrival.throughput *= place.weight;
+    arrival.phase = medium.phase;
+    arrival.distance = place.distance;
     return arrival;
 }

@@ -125,49 +125,52 @@ fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
 }
 
 #if !LAYER_OF_SURFACES
+// The end of a path that leaves the scene.
+fn shading_outside(path: Path, arrival: Arrival, depth: u32) -> Shading {
+    var outside = path;
+    outside.throughput = arrival.throughput;
+    trace_arrival(outside.ray.direction, outside.pdf_solid_angle, outside.throughput, NONE);
+    var shading = no_shading();
+    shading.radiance = in_layer(arrival.radiance, depth) + escaped_radiance(outside, depth);
+    return shading;
+}
+
 // Extends a path whose ray met `hit`, its vertex number `vertex`: replaces `path`, returns what was found.
 fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     var incoming = *path;
     let depth = depth_at(incoming, vertex);
     let wo = -incoming.ray.direction;
-    var shading = no_shading();
     let has_left = hit.primitive == NONE;
+    if has_left && !HAS_SCATTERING {
+        return shading_outside(incoming, arrive(incoming, INFINITY_DISTANCE, vertex), depth);
+    }
     var surface: Surface;
     // A hit in an instance may come without its distance.
     var ray_length = INFINITY_DISTANCE;
-    if !has_left {
+    if !HAS_SCATTERING || !has_left {
         surface = hit_surface(incoming.ray, hit);
         ray_length = distance(surface.position, incoming.ray.origin);
     }
+    let arrival = arrive(incoming, ray_length, vertex);
+    // Not 0 where a medium scatters the path before it comes to the end of its ray.
+    let phase = arrival.phase;
+    if HAS_SCATTERING && phase != 0u {
+        surface = medium_surface(incoming.ray, arrival.distance);
+    } else if HAS_SCATTERING && has_left {
+        return shading_outside(incoming, arrival, depth);
+    }
+    incoming.throughput = arrival.throughput;
+    var shading = no_shading();
+    shading.radiance = in_layer(arrival.radiance, depth);
     if HAS_WEIGHTS_BY_VIEWER {
         surface.by_camera = depth == 1u;
-    }
-    var phase = 0u;
-    if HAS_SCATTERING {
-        let arrival = arrive_through_medium(incoming, ray_length, vertex);
-        shading.radiance = in_layer(arrival.radiance, depth);
-        incoming.throughput = arrival.throughput;
-        phase = arrival.phase;
-        if phase != 0u {
-            surface = medium_surface(incoming.ray, arrival.distance);
-        }
-    } else {
-        if HAS_MEDIUM_EMISSION {
-            shading.radiance = in_layer(radiance_of_medium(incoming, ray_length), depth);
-        }
-        incoming.throughput = arriving_throughput(incoming, ray_length);
-    }
-    if has_left && phase == 0u {
-        trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
-        shading.radiance += escaped_radiance(incoming, depth);
-        return shading;
     }
 #if CARRIED_LIGHT
     surface.carried = incoming.throughput;
 #endif
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     trace_surface(surface.position, surface.shading_normal, surface.material);
-    if phase != 0u {
+    if HAS_SCATTERING && phase != 0u {
         trace_medium();
     }
     if HAS_HIDDEN_EMITTERS && phase == 0u && depth == 1u && gives_light(surface.material) {

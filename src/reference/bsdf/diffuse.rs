@@ -4,11 +4,11 @@ use std::f64::consts::FRAC_1_PI;
 
 use glam::DVec3;
 
-use super::hemisphere::{hemisphere_pdf, sample_hemisphere};
+use super::hemisphere::{hemisphere_pdf, hemisphere_weight, sample_hemisphere};
 use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
-use crate::scene::{HemisphereSampling, MaterialKind};
+use crate::scene::MaterialKind;
 use crate::spectrum::Spectrum;
 
 /// f = ρ/π.
@@ -35,15 +35,11 @@ impl Scatter for Diffuse {
         Evaluation { value: self.reflectance * (FRAC_1_PI * cos_theta), pdf: hemisphere_pdf(view, cos_theta) }
     }
 
-    /// (ρ/π)·cosθ over the density cosθ/π leaves ρ; over the uniform 1/2π, 2ρ·cosθ.
     fn sample(&self, view: &View, _u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
         let local = sample_hemisphere(view, u1, u2);
         let wi = view.frame.to_world(local);
         let density = Density::SolidAngle(hemisphere_pdf(view, local.z));
-        let weight = match view.hemisphere {
-            HemisphereSampling::Cosine => self.reflectance,
-            HemisphereSampling::Uniform => self.reflectance * (2.0 * local.z),
-        };
+        let weight = self.reflectance * hemisphere_weight(view, local.z);
         view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, density) })
     }
 }

@@ -4,11 +4,11 @@ use std::f64::consts::FRAC_1_PI;
 
 use glam::DVec3;
 
-use super::hemisphere::{hemisphere_pdf, sample_hemisphere};
+use super::hemisphere::{hemisphere_pdf, hemisphere_weight, sample_hemisphere};
 use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
-use crate::scene::{HemisphereSampling, MaterialKind};
+use crate::scene::MaterialKind;
 use crate::spectrum::Spectrum;
 
 /// f = ρ/π on wo's side and τ/π on the other one, ρ + τ at most 1. A side is sampled in proportion to its largest channel.
@@ -61,10 +61,7 @@ impl Scatter for DiffuseTransmission {
             let wi = view.frame.to_world(local.with_z(-local.z));
             (wi, self.transmittance, 1.0 - choose_reflection, view.transmits(wi))
         };
-        let weight = match view.hemisphere {
-            HemisphereSampling::Cosine => color / probability,
-            HemisphereSampling::Uniform => color * (2.0 * local.z / probability),
-        };
+        let weight = color * (hemisphere_weight(view, local.z) / probability);
         let density = Density::SolidAngle(probability * hemisphere_pdf(view, local.z));
         is_possible.then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, density) })
     }

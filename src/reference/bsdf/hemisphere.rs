@@ -14,6 +14,14 @@ pub fn sample_hemisphere(view: &View, u1: f64, u2: f64) -> DVec3 {
     }
 }
 
+/// Weight of such a direction under a reflectance of 1: cosθ/π over the density cosθ/π leaves 1; over the uniform 1/2π, 2·cosθ.
+pub fn hemisphere_weight(view: &View, cos_theta: f64) -> f64 {
+    match view.hemisphere {
+        HemisphereSampling::Cosine => 1.0,
+        HemisphereSampling::Uniform => 2.0 * cos_theta,
+    }
+}
+
 /// Density of [`sample_hemisphere`] per steradian.
 pub fn hemisphere_pdf(view: &View, cos_theta: f64) -> f64 {
     match view.hemisphere {

@@ -63,7 +63,7 @@ pub fn of_ball_of_light(medium: &Medium, center: [f64; 3], radius: f64, radiance
     medium.scattering / height * integrate(&at, from, to, 1e-10)
 }
 
-/// The same by integration over the distance along the ray, without a change of variable.
+/// Airlight by integration over the distance along the ray, without a change of variable.
 pub fn of_point_light_by_distance(medium: &Medium, light: [f64; 3], intensity: f64, direction: [f64; 3], length: f64) -> f64 {
     let at = |place: f64| {
         let to_place: [f64; 3] = std::array::from_fn(|axis| place * direction[axis] - light[axis]);

@@ -13,7 +13,7 @@ pub enum Interpolation {
 /// Values beyond the grid's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outside {
-    /// Those at the border go on.
+    /// The values at the border go on.
     Clamped,
     Zero,
 }

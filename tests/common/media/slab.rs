@@ -19,7 +19,7 @@ const FIRST: f64 = 1e-3;
 const DEEP: f64 = 1e6;
 const NOTHING: f64 = 1e-17;
 
-/// What is scattered within a layer, how thick it is (optically; infinite for a half space that absorbs), and its index of refraction over that outside.
+/// A layer: the scattering within it, its optical thickness (infinite for a half space that absorbs), and its index of refraction over that outside.
 #[derive(Debug, Clone)]
 pub struct Layer {
     pub albedo: f64,
@@ -79,7 +79,7 @@ impl Nodes {
     }
 }
 
-/// What a layer does to radiances: reflection above and below, transmission downward and upward.
+/// The effect of a layer on radiances: reflection above and below, transmission downward and upward.
 #[derive(Debug, Clone)]
 struct Operators {
     above: Matrix,
@@ -163,7 +163,7 @@ impl Mode {
 
     /// The layer without its boundaries.
     fn within(layer: &Layer, nodes: &Nodes, mode: usize) -> Operators {
-        // What the quadrature cannot tell from light straight on is taken as such (Wiscombe 1977).
+        // Light that the quadrature cannot tell from light straight on is taken as such (Wiscombe 1977).
         let degrees = nodes.degrees;
         let forward = layer.phase.moment(degrees);
         let albedo = layer.albedo * (1.0 - forward) / (1.0 - layer.albedo * forward);

@@ -42,7 +42,7 @@ pub fn send(layer: &Layer, cosine: f64, photons: u64, random: &mut dyn FnMut() -
     counts
 }
 
-/// Whether the photon comes out below; None where it is absorbed.
+/// True if the photon comes out below; None where it is absorbed.
 fn walk(layer: &Layer, cosine: f64, random: &mut dyn FnMut() -> f64) -> Option<bool> {
     if random() < fresnel::reflectance(cosine, layer.index) {
         return Some(false);

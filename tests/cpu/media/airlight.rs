@@ -100,7 +100,7 @@ fn balls_of_light_are_points_from_afar() {
     for &(place, weight) in &rule {
         let place = 2.5 * place;
         let distance = (2.0 + (place - 2.0) * (place - 2.0)).sqrt();
-        // Of the ball's side that is seen: cosines at its centre from the horizon to 1.
+        // Over the ball's side that is seen: cosines at its centre from the horizon to 1.
         for &(part, share) in &rule {
             let horizon = radius / distance;
             let cosine = horizon + (1.0 - horizon) * part;

@@ -1,4 +1,4 @@
-//! Where light is the same everywhere and in all directions, media change nothing: by any phase function, in any shape, behind any boundary.
+//! In light that is the same everywhere and in all directions, media change nothing: by any phase function, in any shape, behind any boundary.
 
 use super::text::{self, Medium};
 use super::truth::{ALL, Truth, assert_all_hold};

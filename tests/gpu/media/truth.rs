@@ -1,4 +1,4 @@
-//! What a picture of a medium has to show, and the judgement whether it does.
+//! The value that a picture of a medium has to show, and the judgement of the picture.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ pub struct Truth {
     pub text: String,
     pub expected: [f64; 3],
     pub mistaken: [f64; 3],
-    /// Those that see the light of the scene.
+    /// The estimators that see the light of the scene.
     pub estimators: &'static [Estimator],
 }
 

@@ -9,6 +9,9 @@ use crate::spectrum::Spectrum;
 /// The longest distance that counts within a medium: that of light which leaves the scene is infinite.
 pub const FARTHEST: f64 = 1e20;
 
+/// A place of a light nearer to a ray than this, by its distance from the ray's origin, is on it: no angles about it are drawn.
+pub const LEAST_ASIDE: f64 = 1e-4;
+
 /// Surfaces that a shadow ray goes through at most where they bound media.
 pub const MOST_CROSSINGS: u32 = 4096;
 
@@ -81,12 +84,13 @@ impl Media {
             _ => None,
         };
         let mut inside: Vec<Option<Filling>> = scene.materials.iter().map(own).collect();
-        if inside.iter().flatten().all(Filling::is_clear) && scene.camera_medium.is_none() {
+        let around_camera = scene.camera_medium.map(|id| Filling::of(&scene.media[id]));
+        if inside.iter().flatten().chain(&around_camera).all(Filling::is_clear) {
             return Self::default();
         }
         of_blends(scene, &mut inside);
         let mut media = Self::default();
-        media.around_camera = scene.camera_medium.map_or(0, |id| media.number(Filling::of(&scene.media[id])));
+        media.around_camera = around_camera.map_or(0, |filling| media.number(filling));
         media.behind = inside.into_iter().map(|filling| filling.map_or(0, |filling| media.number(filling))).collect();
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
         media.is_open =
@@ -127,11 +131,6 @@ impl Media {
     /// Some null surface bounds a medium.
     pub fn has_open_boundaries(&self) -> bool {
         self.is_open.contains(&true)
-    }
-
-    /// Some medium scatters light.
-    pub fn scatter(&self) -> bool {
-        self.fillings.iter().any(Filling::scatters)
     }
 
     /// Some medium gives off light.

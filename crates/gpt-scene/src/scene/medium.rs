@@ -1,7 +1,5 @@
 //! Participating media: what fills a body or the space around the camera, takes light away, scatters it and gives some off.
 
-use std::f64::consts::PI;
-
 use crate::spectrum::Spectrum;
 
 /// Index into [`crate::scene::Scene::media`].
@@ -79,34 +77,5 @@ impl Phase {
     /// A phase function of one lobe.
     pub fn of(kind: PhaseKind) -> Self {
         Self(vec![PhaseLobe { weight: 1.0, kind }])
-    }
-
-    /// The mean cosine between the directions before and after.
-    pub fn mean_cosine(&self) -> f64 {
-        let of_lobe = |lobe: &PhaseLobe| match lobe.kind {
-            PhaseKind::HenyeyGreenstein { g } => lobe.weight * g,
-            PhaseKind::Rayleigh => 0.0,
-        };
-        self.0.iter().map(of_lobe).sum()
-    }
-
-    /// Density by solid angle of a direction whose cosine with the direction before is `cosine`; it is the share of light that is scattered there,
-    /// too.
-    pub fn pdf_solid_angle(&self, cosine: f64) -> f64 {
-        self.0.iter().map(|lobe| lobe.weight * lobe.kind.pdf_solid_angle(cosine)).sum()
-    }
-}
-
-impl PhaseKind {
-    /// Density by solid angle of a direction whose cosine with the direction before is `cosine`.
-    pub fn pdf_solid_angle(self, cosine: f64) -> f64 {
-        match self {
-            Self::HenyeyGreenstein { g } => {
-                // (1 + g² − 2g·cosine), without the cancellation at cosine = 1 and g near 1.
-                let squared = (1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - cosine);
-                (1.0 - g * g) / (4.0 * PI * squared * squared.sqrt())
-            }
-            Self::Rayleigh => 3.0 / (16.0 * PI) * (1.0 + cosine * cosine),
-        }
     }
 }

@@ -23,7 +23,7 @@ pub enum MaterialKind {
     /// Modified Phong (Lafortune and Willems 1994).
     Phong { diffuse: ColorInput, specular: ColorInput, exponent: ColorInput },
     /// A sheet that Lambert's law holds for on both sides: f = ρ/π for light from the side that is seen, τ/π for light from the other one.
-    /// Where ρ + τ is more than 1, both are divided by it.
+    /// A sum ρ + τ of more than 1 divides both.
     DiffuseTransmission { reflectance: ColorInput, transmittance: ColorInput },
     /// Smooth dielectric with exact Fresnel equations. `ior` is inside over outside, the outside being where the normal points; a `thin` one
     /// is a plate of both boundaries, which light crosses without changing its direction. Glass with a `film`, or of which `dispersion` says how `ior`, the
