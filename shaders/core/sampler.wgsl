@@ -1,4 +1,5 @@
 // Randomness as a pure function of (seed, pixel, sample index, named dimension): the device's half of src/sampling.
+#import core/layout.wgsl
 #import core/parameters.wgsl
 
 const GOLDEN: u32 = 0x9e3779b9u;
@@ -92,6 +93,11 @@ fn camera_block(pixel: u32, sample_in_pass: u32) -> vec4<u32> {
 // [0, 1), a multiple of 2^-24.
 fn uniform_float(bits: u32) -> f32 {
     return f32(bits >> 8u) * 5.9604644775390625e-8;
+}
+
+// Uniform in (0, 1): all bits, and fine near 0, where rare events are.
+fn open_float(bits: u32) -> f32 {
+    return min((f32(bits) + 0.5) * 2.3283064365386963e-10, LARGEST_NUMBER);
 }
 
 // The upper 32 bits of a 64-bit product.

@@ -84,11 +84,11 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
 fn light_across_boundaries(index: u32, number: u32) -> Spectrum {
     let s0 = shadow_rays[SHADOW_ORIGIN + shadow_ray_index(index, number)];
     let s1 = shadow_rays[SHADOW_DIRECTION + shadow_ray_index(index, number)];
-    let media = bitcast<vec2<u32>>(shadow_rays[SHADOW_MEDIA + shadow_ray_index(index, number)].xy);
+    let media = bitcast<vec3<u32>>(shadow_rays[SHADOW_MEDIA + shadow_ray_index(index, number)].xyz);
     if HAS_MOTION {
         set_path_time_of(bitcast<u32>(s1.w));
     }
-    var crossing = begin_crossing(Ray(s0.xyz, s1.xyz), s0.w, media, true);
+    var crossing = begin_crossing(Ray(s0.xyz, s1.xyz), s0.w, media.xy, media.z, true);
     while crossing.goes_on {
         crossing = cross_surface(crossing, closest_hit(crossing.ray, crossing.remaining));
     }

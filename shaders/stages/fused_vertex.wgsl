@@ -39,7 +39,7 @@ fn nearest(ray: Ray, has_ray: bool) -> Hit {
 
 // The share of light that comes along the shadow ray through surfaces that bound media.
 fn light_across_boundaries(shadow: ShadowRay, has_ray: bool) -> Spectrum {
-    var crossing = begin_crossing(shadow.ray, shadow.distance, shadow.media, has_ray);
+    var crossing = begin_crossing(shadow.ray, shadow.distance, shadow.media, shadow.key, has_ray);
     loop {
         let hit = nearest_before(crossing.ray, crossing.remaining, crossing.goes_on);
         if crossing.goes_on {

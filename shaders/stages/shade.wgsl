@@ -71,7 +71,7 @@ fn store_shadow_rays(index: u32, slot: u32, shading: Shading) -> u32 {
             shadow_rays[SHADOW_DIRECTION + at] = vec4<f32>(shadow.ray.direction, bitcast<f32>(slot));
             shadow_rays[SHADOW_RADIANCE + at] = vec4<f32>(shadow.radiance, 0.0);
             if HAS_OPEN_BOUNDARIES {
-                shadow_rays[SHADOW_MEDIA + at] = vec4<f32>(bitcast<vec2<f32>>(shadow.media), 0.0, 0.0);
+                shadow_rays[SHADOW_MEDIA + at] = vec4<f32>(bitcast<vec2<f32>>(shadow.media), bitcast<f32>(shadow.key), 0.0);
             }
             rays++;
         }

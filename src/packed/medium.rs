@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::error::PackError;
+use super::volume::{PackedVolume, PackedVolumes};
+use crate::scene::media;
 use crate::scene::{Filling, MaterialId, Media, PhaseKind, PhaseLobe};
 use crate::shader::shared::shared_constants;
 
@@ -15,6 +17,13 @@ shared_constants!(constants {
     /// Flags of a medium: it scatters light; light samples reach it.
     const MEDIUM_SCATTERS: u32 = 1;
     const MEDIUM_IS_LIT: u32 = 2;
+    /// Flags of a medium with grids: it has a density, and behind that a grid of albedos, and one by which emission is multiplied.
+    const MEDIUM_VARIES: u32 = 4;
+    const MEDIUM_HAS_ALBEDOS: u32 = 8;
+    const MEDIUM_HAS_GLOW: u32 = 16;
+    /// Most places at which a ray looks up the density of a medium, and the share of light below which it goes on by chance.
+    const MOST_LOOKUPS: u32 = media::MOST_LOOKUPS;
+    const FAINT: f32 = media::FAINT as f32;
     /// Above the first of a medium's phase lobes stands how many there are.
     const PHASE_COUNT_SHIFT: u32 = 20;
     /// Kinds of phase lobes.
@@ -32,7 +41,8 @@ pub struct PackedMedium {
     /// The first of its phase lobes, and above `PHASE_COUNT_SHIFT` their number.
     pub phase: u32,
     pub emission: [f32; 3],
-    pub unused: u32,
+    /// The first of its volumes: the density, then those that its flags name.
+    pub first_volume: u32,
 }
 
 /// A part of a phase function, 16 bytes.
@@ -51,6 +61,7 @@ pub struct PackedMedia {
     /// That of number 1 is the first.
     pub media: Vec<PackedMedium>,
     pub phases: Vec<PackedPhaseLobe>,
+    pub volumes: PackedVolumes,
     /// The number of the medium that the camera is within; 0: none.
     pub around_camera: u32,
 }
@@ -83,14 +94,27 @@ impl PackedMedia {
             return Err(PackError::TooManyPhases);
         }
         self.phases.extend(filling.phase.0.iter().map(packed_lobe));
+        let first_volume = self.volumes.volumes.len() as u32;
+        let grids = filling.grids.as_deref();
+        if let Some(grids) = grids {
+            let density = PackedVolume::of_density(grids.density(), grids.majorants(), filling.tracking_rate());
+            self.volumes.push(density, grids.density(), Some(grids.majorants()));
+            for volume in [grids.albedo(), grids.emission()].into_iter().flatten() {
+                self.volumes.push(PackedVolume::new(volume), volume, None);
+            }
+        }
         let flag = |is_set: bool, flag: u32| if is_set { flag } else { 0 };
         Ok(PackedMedium {
             extinction: filling.extinction.to_f32(),
-            flags: flag(filling.scatters(), MEDIUM_SCATTERS) | flag(filling.is_lit, MEDIUM_IS_LIT),
+            flags: flag(filling.scatters(), MEDIUM_SCATTERS)
+                | flag(filling.is_lit, MEDIUM_IS_LIT)
+                | flag(grids.is_some(), MEDIUM_VARIES)
+                | flag(grids.is_some_and(|grids| grids.albedo().is_some()), MEDIUM_HAS_ALBEDOS)
+                | flag(grids.is_some_and(|grids| grids.emission().is_some()), MEDIUM_HAS_GLOW),
             scattering: filling.scattering.to_f32(),
             phase: first as u32 | (count as u32) << PHASE_COUNT_SHIFT,
             emission: filling.emission.to_f32(),
-            unused: 0,
+            first_volume,
         })
     }
 
@@ -99,7 +123,7 @@ impl PackedMedia {
     }
 
     /// A sentence about a number that leads outside of the tables.
-    pub(super) fn check(&self) -> Result<(), String> {
+    pub(super) fn check(&self, texel_words: usize) -> Result<(), String> {
         if self.around_camera as usize > self.media.len() {
             return Err(format!("the camera is within medium {} of {}", self.around_camera, self.media.len()));
         }
@@ -108,6 +132,17 @@ impl PackedMedia {
             if count == 0 || (first + count) as usize > self.phases.len() {
                 return Err(format!("medium {index} has {count} phase lobes from {first} on"));
             }
+            let volumes = (medium.flags & (MEDIUM_VARIES | MEDIUM_HAS_ALBEDOS | MEDIUM_HAS_GLOW)).count_ones();
+            let end = medium.first_volume as usize + volumes as usize;
+            let is_density = |volume: &PackedVolume| volume.side > 0;
+            if volumes > 0
+                && (end > self.volumes.volumes.len() || !is_density(&self.volumes.volumes[medium.first_volume as usize]))
+            {
+                return Err(format!("medium {index} has {volumes} volumes from {} on", medium.first_volume));
+            }
+        }
+        for (index, volume) in self.volumes.volumes.iter().enumerate() {
+            volume.check(texel_words).map_err(|reason| format!("the grid {index} of media {reason}"))?;
         }
         Ok(())
     }
@@ -115,6 +150,11 @@ impl PackedMedia {
     /// Some medium scatters light.
     pub fn scatter(&self) -> bool {
         self.media.iter().any(|medium| medium.flags & MEDIUM_SCATTERS != 0)
+    }
+
+    /// Some medium differs from place to place.
+    pub fn vary(&self) -> bool {
+        !self.volumes.volumes.is_empty()
     }
 
     /// Some medium gives off light.

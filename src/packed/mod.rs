@@ -28,6 +28,7 @@ pub mod texture;
 pub mod tree;
 pub mod validate;
 pub mod view;
+pub mod volume;
 mod widening;
 pub mod world;
 

@@ -87,7 +87,9 @@ impl PackedScene {
         let mut materials = PackedMaterials::new(scene, &world.materials())?;
         let mut thrown_textures = light::thrown_textures(scene);
         let of_lights = thrown_textures.iter_mut().filter(|mention| **mention != NONE);
-        let mut textures = PackedTextures::new(scene, materials.textures_mut().chain(of_lights))?;
+        let grids = materials.media.volumes.grids().to_vec();
+        let mut textures = PackedTextures::new(scene, materials.textures_mut().chain(of_lights), &grids)?;
+        materials.media.volumes.place(&mut textures)?;
         let environment = light::environment(scene, &mut textures)?;
         let light::SampledLights { mut lights, local_count, nodes, cells } =
             light::collect(scene, &mut world, &environment, &thrown_textures, &mut textures)?;

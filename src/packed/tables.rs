@@ -15,6 +15,7 @@ pub struct Tables {
     pub first_further: u32,
     pub first_medium: u32,
     pub first_phase: u32,
+    pub first_volume: u32,
     pub first_light_node: u32,
 }
 
@@ -30,6 +31,7 @@ impl Tables {
         tables.first_further = tables.append(&packed.materials.further);
         tables.first_medium = tables.append(&packed.materials.media.media);
         tables.first_phase = tables.append(&packed.materials.media.phases);
+        tables.first_volume = tables.append(&packed.materials.media.volumes.volumes);
         tables.first_light_node = tables.append(&packed.light_nodes);
         tables
     }

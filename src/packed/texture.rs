@@ -8,6 +8,7 @@ use super::error::PackError;
 use crate::scene::image::Code;
 use crate::scene::{
     Channel, ImageData, ImageTexture, Relief, Scene, Texels, Texture, TextureFilter, TextureId, TextureKind, TextureWrap,
+    VoxelGrid,
 };
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 use crate::spectrum::Spectrum;
@@ -98,14 +99,32 @@ pub struct PackedTexture {
     pub times: u32,
 }
 
+/// Values that are not copied on their way to the device.
+#[derive(Debug, Clone)]
+enum Bulk {
+    Image(Arc<ImageData>),
+    Grid(Arc<VoxelGrid>),
+}
+
+impl Bulk {
+    fn as_bytes(&self) -> &[u8] {
+        match self {
+            Self::Image(image) => image.texels.as_bytes(),
+            Self::Grid(grid) => bytemuck::cast_slice(grid.values()),
+        }
+    }
+}
+
 /// The textures that something looks up.
 #[derive(Debug, Clone, Default)]
 pub struct PackedTextures {
     pub textures: Vec<PackedTexture>,
-    /// Images, whose texels stand one after the other at the beginning of the texels.
-    images: Vec<Arc<ImageData>>,
-    /// Words of all images together.
-    image_words: usize,
+    /// Images and grids, whose values stand one after the other at the beginning of the texels.
+    bulk: Vec<Bulk>,
+    /// Words of all of them together.
+    bulk_words: usize,
+    /// First word of each grid, by its address.
+    first_words_of_grids: HashMap<usize, u32>,
     /// Words behind the records: values of the integers in images, then the environment map and its
     /// distribution.
     pub words: Vec<u32>,
@@ -124,27 +143,39 @@ fn number_of(channel: Channel) -> u32 {
 }
 
 impl PackedTextures {
-    /// Packs the textures that are [mentioned](mention), each once; the mentions become places here.
+    /// Packs the textures that are [mentioned](mention), each once; the mentions become places here. The values of grids stand among the texels of images.
     ///
     /// # Errors
     /// [`PackError::TooManyTexels`] where 32 bits cannot number them.
-    pub fn new<'a>(scene: &Scene, mentions: impl Iterator<Item = &'a mut u32>) -> Result<Self, PackError> {
+    pub fn new<'a>(
+        scene: &Scene,
+        mentions: impl Iterator<Item = &'a mut u32>,
+        grids: &[Arc<VoxelGrid>],
+    ) -> Result<Self, PackError> {
         let mut packed = Packing::default();
         let mut places: HashMap<u32, u32> = HashMap::new();
         for mention in mentions {
             *mention = packed.place_of(scene, *mention, &mut places)?;
         }
+        for grid in grids {
+            packed.add_grid(grid)?;
+        }
         packed.finish()
+    }
+
+    /// Index of a grid's first value among the texels; 0 of a grid that is not there.
+    pub fn first_word_of_grid(&self, grid: &Arc<VoxelGrid>) -> u32 {
+        self.first_words_of_grids.get(&(Arc::as_ptr(grid) as usize)).copied().unwrap_or(0)
     }
 
     /// Words of all texels, which kernels number from 0 on.
     pub fn texel_words(&self) -> usize {
-        self.image_words + self.words.len()
+        self.bulk_words + self.words.len()
     }
 
     /// The number of the first of [`Self::words`] among all texels.
     pub fn first_word(&self) -> usize {
-        self.image_words
+        self.bulk_words
     }
 
     /// Bytes of all texels.
@@ -154,9 +185,9 @@ impl PackedTextures {
 
     /// A run of the texels' bytes, piece by piece.
     pub fn pieces(&self, bytes: Range<usize>) -> impl Iterator<Item = &[u8]> {
-        let images = self.images.iter().map(|image| image.texels.as_bytes());
+        let bulk = self.bulk.iter().map(Bulk::as_bytes);
         let mut end = 0;
-        images.chain([bytemuck::cast_slice(&self.words)]).filter_map(move |piece| {
+        bulk.chain([bytemuck::cast_slice(&self.words)]).filter_map(move |piece| {
             let first = end;
             end += piece.len();
             let from = bytes.start.clamp(first, end) - first;
@@ -335,12 +366,28 @@ impl Packing {
         if let Some(&known) = self.first_words.get(&Arc::as_ptr(image)) {
             return Ok(known);
         }
-        let first = self.packed.image_words;
-        self.packed.image_words += image.texels.words() * image.texels.len();
-        let numbered = u32::try_from(first).ok().filter(|_| u32::try_from(self.packed.image_words).is_ok());
-        let Some(number) = numbered else { return Err(PackError::TooManyTexels { words: self.packed.image_words }) };
-        self.packed.images.push(image.clone());
+        let number = self.add_bulk(image.texels.words() * image.texels.len(), Bulk::Image(image.clone()))?;
         self.first_words.insert(Arc::as_ptr(image), number);
+        Ok(number)
+    }
+
+    /// Adds a grid's values where they are not there yet.
+    fn add_grid(&mut self, grid: &Arc<VoxelGrid>) -> Result<(), PackError> {
+        let address = Arc::as_ptr(grid) as usize;
+        if !self.packed.first_words_of_grids.contains_key(&address) {
+            let number = self.add_bulk(grid.values().len(), Bulk::Grid(grid.clone()))?;
+            self.packed.first_words_of_grids.insert(address, number);
+        }
+        Ok(())
+    }
+
+    /// The first word of values that are added.
+    fn add_bulk(&mut self, words: usize, bulk: Bulk) -> Result<u32, PackError> {
+        let first = self.packed.bulk_words;
+        self.packed.bulk_words += words;
+        let numbered = u32::try_from(first).ok().filter(|_| u32::try_from(self.packed.bulk_words).is_ok());
+        let Some(number) = numbered else { return Err(PackError::TooManyTexels { words: self.packed.bulk_words }) };
+        self.packed.bulk.push(bulk);
         Ok(number)
     }
 

@@ -5,10 +5,11 @@
 
 use std::collections::HashSet;
 use std::ptr;
+use std::sync::Arc;
 
 use super::memory::Memory;
 use crate::film::MOST_FILM_PIXELS;
-use crate::scene::{ImageData, Light, Scene, SceneSummary, TextureKind};
+use crate::scene::{ImageData, Light, MediumGrids, Scene, SceneSummary, TextureKind};
 
 /// By how much an estimate may be off, either way.
 pub const HOST_FACTOR: f64 = 2.0;
@@ -21,6 +22,8 @@ const TRIANGLE_BYTES: u64 = 350;
 const INSTANCE_BYTES: u64 = 350;
 /// Bytes for each of a picture's: as it is decoded, and as it is packed.
 const PICTURE_FACTOR: u64 = 2;
+/// Bytes for each of a grid's: as it is read, and as it is packed.
+const GRID_FACTOR: u64 = 2;
 /// Bytes per pixel of the film's sums: on the CPU; on a device, with the copy that is read back. A software
 /// device's film is in the host's memory.
 const FILM_BYTES: [u64; 2] = [36, 64];
@@ -65,6 +68,10 @@ pub fn host_memory(scene: &Scene, needs: &HostNeeds) -> Memory {
     let images =
         of_textures.chain(scene.lights.iter().filter_map(Light::image)).filter(|image| seen.insert(ptr::from_ref(*image)));
     let pictures: usize = images.map(|image: &ImageData| image.texels.as_bytes().len()).sum();
+    let mut seen = HashSet::new();
+    let volumes = scene.media.iter().filter_map(|medium| medium.grids.as_deref()).flat_map(MediumGrids::volumes);
+    let grids = volumes.filter(|volume| seen.insert(Arc::as_ptr(&volume.grid)));
+    let grids: u64 = grids.map(|volume| 4 * volume.grid.values().len() as u64).sum();
     let film = pixels.min(MOST_FILM_PIXELS);
     let of = |is_so: bool, bytes: u64| if is_so { bytes } else { 0 };
     let steps = of(adaptive, ADAPTIVE_BYTES * pixels) + of(target_error, TARGET_BYTES * pixels);
@@ -73,6 +80,7 @@ pub fn host_memory(scene: &Scene, needs: &HostNeeds) -> Memory {
         ("program", PROGRAM_BYTES[way]),
         ("triangles", TRIANGLE_BYTES * triangles + INSTANCE_BYTES * summary.instances as u64),
         ("pictures", PICTURE_FACTOR * pictures as u64),
+        ("grids", GRID_FACTOR * grids),
         ("film", FILM_BYTES[way] * film),
         ("rows", BAND_BYTES * pixels.min(BAND_PIXELS)),
         ("steps", steps + streams),

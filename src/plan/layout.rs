@@ -6,7 +6,7 @@ use super::parameters::{PassParameters, VertexParameters};
 use super::{counters, estimator, path_state, trace_record};
 use crate::packed::{
     NONE, View, blend_weight, bvh4, guide, instance, light, light_cells, material, medium, motion, primitive, shape, texture,
-    view,
+    view, volume,
 };
 use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
 
@@ -31,6 +31,7 @@ pub fn constants() -> Constants {
         view::constants(),
         material::constants(),
         medium::constants(),
+        volume::constants(),
         blend_weight::constants(),
         light::constants(),
         light_cells::constants(),

@@ -117,6 +117,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("CAMERA_MEDIUM", packed.materials.media.around_camera),
         ("FIRST_MEDIUM_WORD", tables.first_medium),
         ("FIRST_PHASE_WORD", tables.first_phase),
+        ("FIRST_VOLUME_WORD", tables.first_volume),
         ("FIRST_MOTION_WORD", tables.first_motion),
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
@@ -309,7 +310,8 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("MEDIUM_EMISSION", media.emit());
     switches.enable("SCATTERING", media.scatter());
     let open_boundaries = packed.materials.has_open_boundaries();
-    switches.enable("OPEN_BOUNDARIES", open_boundaries && !media.is_empty());
+    switches.enable("OPEN_BOUNDARIES", (open_boundaries || media.vary()) && !media.is_empty());
+    switches.enable("MEDIUM_GRIDS", media.vary());
     switches.enable("ANISOTROPY", has_form(ANISOTROPIC));
     switches.enable("ANISOTROPY_DIRECTIONS", has_form(material::DIRECTED));
     let coat_normals_differ = scene.coat_normals_differ();

@@ -130,6 +130,7 @@ mod tests {
             scattering: extinction * albedo,
             emission: Spectrum::BLACK,
             phase: Phase::isotropic(),
+            grids: None,
             is_lit: true,
         }
     }

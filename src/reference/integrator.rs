@@ -26,9 +26,11 @@ use super::phase::Scattering;
 use super::roulette::{self, Expectation};
 use super::scatterer::{Interaction, Scatterer};
 use super::trace::{LightConnection, PathVisitor};
+use super::tracking::{Passage, Stream, pass_through, track};
+use crate::sampling::hash::mix;
 use crate::sampling::{CameraDimension, Dimension, Guide, LitPoint, MediumDimension, PathSampler, VertexDimension};
 use crate::scene::media::MOST_CROSSINGS;
-use crate::scene::{Emitters, Estimator, Filling, MaterialId, Media, Scene};
+use crate::scene::{Emitters, Estimator, Filling, MaterialId, Media, MediumGrids, Scene};
 use crate::spectrum::Spectrum;
 
 /// A scene made ready for tracing paths.
@@ -181,6 +183,9 @@ impl Integrator {
         visitor: &mut V,
     ) -> Option<DVec3> {
         let filling = self.media.filling(path.stack.innermost())?;
+        if let Some(grids) = &filling.grids {
+            return self.fly_through_grids(path, (filling, grids), length, sampler, visitor);
+        }
         if self.media.emit() {
             let contribution = path.throughput * given_off(filling, length);
             path.radiance += contribution;
@@ -200,6 +205,37 @@ impl Integrator {
             Some(pivot)
         };
         let flight = fly(filling, path.throughput, (&path.ray, length), pivot, self.scene.render.distance_sampling, numbers);
+        path.throughput *= flight.weight;
+        flight.scattered_at.map(|distance| path.ray.at(distance))
+    }
+
+    /// Such a flight through a medium that differs from place to place.
+    fn fly_through_grids<V: PathVisitor>(
+        &self,
+        path: &mut Path,
+        medium: (&Filling, &MediumGrids),
+        length: f64,
+        sampler: &PathSampler,
+        visitor: &mut V,
+    ) -> Option<DVec3> {
+        let (filling, _) = medium;
+        let stream = |dimension| Stream::new(sampler.bits(Dimension::medium(path.vertex, dimension)));
+        let emits = !filling.emission.is_black();
+        if emits || !filling.scatters() {
+            let mut numbers = stream(MediumDimension::Pass);
+            let passage = pass_through(medium, (&path.ray, length), emits, || visitor.round_number(numbers.draw()));
+            if emits {
+                let contribution = path.throughput * passage.given_off;
+                path.radiance += contribution;
+                visitor.given_off(contribution);
+            }
+            if !filling.scatters() {
+                path.throughput *= passage.left;
+                return None;
+            }
+        }
+        let mut numbers = stream(MediumDimension::Track);
+        let flight = track(medium, path.throughput, (&path.ray, length), || visitor.round_number(numbers.draw()));
         path.throughput *= flight.weight;
         flight.scattered_at.map(|distance| path.ray.at(distance))
     }
@@ -394,7 +430,8 @@ impl Integrator {
         visitor.round_ray(&mut ray, Some(point));
         visitor.ray(&ray);
         let stack = interaction.media_towards(path.stack, &self.media, light.wi);
-        let through = self.shadow_transmittance(ray, &light, stack, &path.time);
+        let numbers = mix(choice ^ mix(u ^ mix(v)));
+        let through = self.shadow_transmittance(ray, &light, (stack, numbers), &path.time);
         let contribution = path.throughput * scattering.value * light.radiance * (weight / light.pdf) * through;
         path.radiance += contribution;
         if V::COMPARES {
@@ -405,36 +442,55 @@ impl Integrator {
 
     /// The share of a sample's light that comes along its shadow ray, which begins in the media of a stack: through all
     /// surfaces on the way, and through media.
-    fn shadow_transmittance(&self, ray: Ray, light: &LightSample, stack: MediumStack, time: &PathTime) -> Spectrum {
+    fn shadow_transmittance(&self, ray: Ray, light: &LightSample, media: (MediumStack, u32), time: &PathTime) -> Spectrum {
         let share = |surface: &Surface| null_weight(&self.scene, surface, -ray.direction);
         let lets_through = |material: MaterialId| self.lights.lets_through(material);
-        if self.media.has_open_boundaries() {
-            return self.transmittance_across_boundaries(ray, light, stack, time);
+        if self.media.order_shadow_rays() {
+            return self.transmittance_across_boundaries(ray, light, media, time);
         }
         // No boundary of a medium lets a shadow ray through, so it stays in the one where it begins
         let through_surfaces = self.world.transmittance(ray, light.distance, light.target, time, lets_through, share);
-        self.medium_transmittance(stack, light.distance) * through_surfaces
+        let (stack, numbers) = media;
+        self.medium_transmittance(stack, (&ray, light.distance), numbers) * through_surfaces
     }
 
-    /// The share of light that is left after a distance within the innermost medium.
-    fn medium_transmittance(&self, stack: MediumStack, distance: f64) -> Spectrum {
-        self.media.filling(stack.innermost()).map_or(Spectrum::WHITE, |filling| left(filling.extinction, distance))
+    /// The share of light that is left after a distance within the innermost medium; an estimate by random numbers of this key where it differs from
+    /// place to place.
+    fn medium_transmittance(&self, stack: MediumStack, (ray, distance): (&Ray, f64), numbers: u32) -> Spectrum {
+        let Some(filling) = self.media.filling(stack.innermost()) else { return Spectrum::WHITE };
+        let Some(grids) = &filling.grids else { return left(filling.extinction, distance) };
+        let mut numbers = Stream::new(numbers);
+        let Passage { left, .. } = pass_through((filling, grids), (ray, distance), false, || numbers.draw());
+        left
     }
 
     /// The share of a sample's light that comes along its shadow ray, from surface to surface in their order, because
     /// they decide which medium lies behind them.
-    fn transmittance_across_boundaries(&self, ray: Ray, light: &LightSample, stack: MediumStack, time: &PathTime) -> Spectrum {
+    fn transmittance_across_boundaries(
+        &self,
+        ray: Ray,
+        light: &LightSample,
+        (stack, numbers): (MediumStack, u32),
+        time: &PathTime,
+    ) -> Spectrum {
         let (mut ray, mut stack, mut share, mut remaining) = (ray, stack, Spectrum::WHITE, light.distance);
-        for _ in 0..MOST_CROSSINGS {
+        for crossed in 0..MOST_CROSSINGS {
+            let through = |stack: MediumStack, ray: &Ray, distance: f64| {
+                self.medium_transmittance(stack, (ray, distance), mix(numbers.wrapping_add(crossed)))
+            };
             let hit = self.world.closest(ray, time).filter(|hit| hit.distance < remaining);
-            let Some(hit) = hit else { return share * self.medium_transmittance(stack, remaining) };
+            let Some(hit) = hit else { return share * through(stack, &ray, remaining) };
             let surface = self.world.surface(&ray, &hit, time);
             if !self.lights.lets_through(surface.owner.material) {
                 // The light's own surface is the end of the way
                 let is_light = light.target.is_some_and(|target| hit.surface == SurfaceId::Primitive(target));
-                return if is_light { share * self.medium_transmittance(stack, hit.distance) } else { Spectrum::BLACK };
+                return if is_light { share * through(stack, &ray, hit.distance) } else { Spectrum::BLACK };
             }
-            share *= self.medium_transmittance(stack, hit.distance) * null_weight(&self.scene, &surface, -ray.direction);
+            let unmet = null_weight(&self.scene, &surface, -ray.direction);
+            share *= unmet;
+            if !share.is_black() {
+                share *= through(stack, &ray, hit.distance);
+            }
             if share.is_black() {
                 return share;
             }

@@ -23,6 +23,7 @@ pub mod roulette;
 pub mod rounding;
 pub mod scatterer;
 pub mod trace;
+mod tracking;
 pub mod warp;
 pub mod work;
 

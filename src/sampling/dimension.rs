@@ -38,6 +38,10 @@ pub enum MediumDimension {
     Event = 0,
     /// The distance to the place.
     Distance = 1,
+    /// Key of the numbers by which flights through media with grids are tracked.
+    Track = 2,
+    /// Key of those by which such media are passed, and what they give off is found.
+    Pass = 3,
 }
 
 /// The first block of these numbers, behind those of all vertices that a path can have.

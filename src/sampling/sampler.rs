@@ -63,7 +63,7 @@ impl<'a> PathSampler<'a> {
     /// Uniform in (0, 1): all 32 bits, rounded to f32. It is fine near 0, where rare events are.
     #[inline]
     pub fn open(&self, dimension: Dimension) -> f64 {
-        f64::from((self.bits(dimension) as f32 + 0.5) * (1.0 / 4_294_967_296.0)).min(LARGEST_NUMBER)
+        open(self.bits(dimension))
     }
 
     /// Uniform in [0, 1): a multiple of 2⁻²⁴, exact in f32 as well.
@@ -75,6 +75,12 @@ impl<'a> PathSampler<'a> {
 
 /// The largest number that samplers give: all are multiples of 2⁻²⁴ below 1.
 pub const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
+
+/// All 32 bits as a number of (0, 1), rounded to f32.
+#[inline]
+pub fn open(bits: u32) -> f64 {
+    f64::from((bits as f32 + 0.5) * (1.0 / 4_294_967_296.0)).min(LARGEST_NUMBER)
+}
 
 /// The upper 24 of 32 bits as a number of [0, 1).
 #[inline]

@@ -222,6 +222,7 @@ const OF_FEATURES: &[Switch] = &[
     // Some surface encloses a medium that takes or gives light, or the camera is within one.
     switch("MEDIA"),
     switch("MEDIUM_EMISSION").requires(&["MEDIA"]),
+    switch("MEDIUM_GRIDS").requires(&["MEDIA", "OPEN_BOUNDARIES", "TEXELS"]),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
     // A mixture has lobes besides the diffuse one.
     switch("MORE_LOBES").requires(&["MIXTURE"]),
@@ -240,7 +241,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("ONE_SIDED"),
     switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(HELD_BESIDE_TRIANGLES),
     // Null surfaces bound media.
-    switch("OPEN_BOUNDARIES").requires(&["MEDIA", "NULL_SURFACES"]),
+    switch("OPEN_BOUNDARIES").requires(&["MEDIA"]),
     switch("ORTHOGRAPHIC"),
     switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
     switch("PERLIN").requires(&["PROCEDURAL_TEXTURES"]),

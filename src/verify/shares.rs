@@ -56,6 +56,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("workshop", MeasuredShare { matching: 167_001, paths: 167_936 }),
     ("vitrine", MeasuredShare { matching: 175_226, paths: 176_128 }),
     ("mist", MeasuredShare { matching: 175_652, paths: 176_128 }),
+    ("bonfire", MeasuredShare { matching: 196_465, paths: 196_608 }),
     ("model-town", MeasuredShare { matching: 196_519, paths: 196_608 }),
     ("furnace-lambert", MeasuredShare { matching: 65_536, paths: 65_536 }),
     ("furnace-box", MeasuredShare { matching: 65_451, paths: 65_536 }),

@@ -19,6 +19,16 @@ pub fn black_body(kelvin: f64) -> Spectrum {
     linear / linear.max_component()
 }
 
+/// Linear Rec.709 light of a black body of this temperature in kelvin as a multiple of the brightest channel at the temperature `hottest`.
+/// A body below 500 K gives off none that is seen.
+pub fn glow(kelvin: f64, hottest: f64) -> Spectrum {
+    if kelvin < 500.0 {
+        return Spectrum::BLACK;
+    }
+    let linear = |kelvin: f64| xyz_to_rec709(tristimulus(kelvin)).max(Spectrum::BLACK);
+    linear(kelvin) / linear(hottest).max_component()
+}
+
 /// CIE 1931 XYZ, up to a factor: Planck's law times the matching functions.
 pub fn tristimulus(kelvin: f64) -> DVec3 {
     let wavelengths = (SHORTEST..=LONGEST).step_by(STEP as usize).map(f64::from);
@@ -62,6 +72,17 @@ mod tests {
             // The tolerance is the error of the sums of Gaussians.
             assert!((found_x - x).abs() < 4e-3 && (found_y - y).abs() < 4e-3, "{kelvin} K: {found_x} {found_y}");
         }
+    }
+
+    #[test]
+    fn what_is_hotter_glows_brighter() {
+        assert_eq!(glow(1500.0, 1500.0), black_body(1500.0));
+        let [cool, hot] = [glow(1200.0, 2000.0), glow(2000.0, 2000.0)];
+        // Wien's law at wavelengths to either side of those that red is seen by.
+        let ratio = |wavelength: f64| (-1.438_776_877e7 / wavelength * (1.0 / 1200.0 - 1.0 / 2000.0)).exp();
+        let found = cool.r() / hot.r();
+        assert!(ratio(600.0) < found && found < ratio(650.0), "{cool} {hot}");
+        assert_eq!(glow(300.0, 2000.0), Spectrum::BLACK);
     }
 
     #[test]

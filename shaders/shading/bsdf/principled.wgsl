@@ -25,6 +25,8 @@ struct Principled {
     metallic: f32,
     specular: f32,
     transmission: f32,
+    // The colour by which light goes through.
+    tint: Spectrum,
     // The part of the diffuse base that scatters light on, and the colour by which it does.
     diffuse_transmission: f32,
     diffuse_transmission_color: Spectrum,
@@ -63,6 +65,7 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
     p.thin = true;
     if HAS_PRINCIPLED_TRANSMISSION {
         p.transmission = parameters.transmission;
+        p.tint = select(p.base, WHITE, (lobe.kind & UNTINTED) != 0u);
         p.thin = (lobe.kind & THIN_WALL) != 0u || abs(lobe.ior - 1.0) < SMALLEST_BEND;
         if p.transmission > 0.0 && !p.thin {
             p.eta = select(1.0 / lobe.ior, lobe.ior, front);
@@ -206,9 +209,8 @@ fn principled_shares(p: Principled, surface: Surface, wo: vec3<f32>) -> Principl
     let possible = select(max(p.metallic, (1.0 - p.metallic) * p.specular), 1.0, p.eta < 1.0);
     var reflection = max(max_component(split.reflected), LEAST_REFLECTED * possible);
     let passed = max(split.passed, (1.0 - p.metallic) * (1.0 - MOST_REFLECTED));
-    let base = passed * max_component(p.base);
-    var diffuse = base * (1.0 - p.transmission);
-    var transmission = base * p.transmission;
+    var diffuse = passed * max_component(p.base) * (1.0 - p.transmission);
+    var transmission = passed * max_component(p.tint) * p.transmission;
     var diffuse_transmission = 0.0;
     if HAS_PRINCIPLED_DIFFUSE_TRANSMISSION {
         let of_base = principled_diffuse_base(p);
@@ -333,7 +335,7 @@ fn principled_base_value(
             terms = vec2<f32>(density * shadowing / (p.eta * p.eta), density / (1.0 + lambda_o));
         }
         let passed = principled_split(p, cosine).passed * principled_below_sheen(p, o.z, -i.z);
-        far.value += p.base * (shares.below_coat * passed * p.transmission * terms.x);
+        far.value += p.tint * (shares.below_coat * passed * p.transmission * terms.x);
         far.pdf_solid_angle += shares.transmission * terms.y;
     }
     return far;
@@ -380,7 +382,7 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
             if !p.thin {
                 wi = refracted(surface.shading_normal, wo, p.eta);
             }
-            weight = p.base * (shares.below_coat * split.passed * p.transmission / (shares.transmission * eta_scale));
+            weight = p.tint * (shares.below_coat * split.passed * p.transmission / (shares.transmission * eta_scale));
             weight *= principled_below_sheen(p, cosine, abs(dot(wi, surface.shading_normal)));
         }
         if transmits == (dot(wi, surface.facing_normal) > 0.0) {

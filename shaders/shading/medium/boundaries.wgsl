@@ -1,9 +1,10 @@
-// The way of a shadow ray through the null surfaces that bound media: from surface to surface in their order, because they decide which medium lies
+// The way of a shadow ray through media and the null surfaces that bound them: from surface to surface in their order, because they decide which medium lies
 // behind them. src/reference/integrator.rs is the same in f64.
 #import core/layout.wgsl
 #import core/math.wgsl
-#import shading/medium/medium.wgsl
+#import core/sampler.wgsl
 #import shading/medium/stack.wgsl
+#import shading/medium/tracking.wgsl
 #import shading/path/transmittance.wgsl
 #import shading/surface.wgsl
 
@@ -13,6 +14,8 @@ struct Crossing {
     ray: Ray,
     remaining: f32,
     media: MediumStack,
+    // Key of the random numbers by which media with grids are passed.
+    key: u32,
     // The share of light that is left so far.
     share: Spectrum,
     // Surfaces that were crossed.
@@ -20,8 +23,8 @@ struct Crossing {
     goes_on: bool,
 }
 
-fn begin_crossing(ray: Ray, distance: f32, media: MediumStack, exists: bool) -> Crossing {
-    return Crossing(ray, distance, media, WHITE, 0u, exists);
+fn begin_crossing(ray: Ray, distance: f32, media: MediumStack, key: u32, exists: bool) -> Crossing {
+    return Crossing(ray, distance, media, key, WHITE, 0u, exists);
 }
 
 // Goes on to `hit`, the first thing on the rest of the way.
@@ -29,12 +32,16 @@ fn cross_surface(crossing: Crossing, hit: Hit) -> Crossing {
     var next = crossing;
     let medium = innermost(crossing.media);
     if hit.primitive == NONE {
-        next.share *= medium_transmittance(medium, crossing.remaining);
+        next.share *= transmittance_along(medium, crossing.ray, crossing.remaining, mix_bits(crossing.key + crossing.crossed));
         next.goes_on = false;
         return next;
     }
     let surface = hit_surface(crossing.ray, hit);
-    next.share *= medium_transmittance(medium, distance(surface.position, crossing.ray.origin)) * null_share(surface, crossing.ray);
+    next.share *= null_share(surface, crossing.ray);
+    if max_component(next.share) > 0.0 {
+        let way = distance(surface.position, crossing.ray.origin);
+        next.share *= transmittance_along(medium, crossing.ray, way, mix_bits(crossing.key + crossing.crossed));
+    }
     next.crossed++;
     if max_component(next.share) <= 0.0 || next.crossed >= MOST_CROSSINGS {
         next.share = BLACK;

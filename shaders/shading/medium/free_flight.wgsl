@@ -31,11 +31,6 @@ struct Angles {
     turns: f32,
 }
 
-// Uniform in (0, 1): all bits, and fine near 0, where rare events are.
-fn open_float(bits: u32) -> f32 {
-    return min((f32(bits) + 0.5) * 2.3283064365386963e-10, LARGEST_NUMBER);
-}
-
 fn angles_of(ray: Ray, length_of_ray: f32, pivot: LightPlace) -> Angles {
     let to_pivot = pivot.point - ray.origin;
     let next = dot(to_pivot, ray.direction);

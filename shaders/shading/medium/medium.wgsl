@@ -11,6 +11,8 @@ struct Medium {
     flags: u32,
     // The first of its phase lobes, and above it their number.
     phase: u32,
+    // The first of its volumes, of a medium with grids.
+    first_volume: u32,
 }
 
 // The medium of a number, which is not 0.
@@ -18,7 +20,10 @@ fn load_medium(number: u32) -> Medium {
     let at = FIRST_MEDIUM_WORD + (number - 1u) * MEDIUM_WORDS;
     let extinction = tables[at];
     let scattering = tables[at + 1u];
-    return Medium(extinction.xyz, scattering.xyz, tables[at + 2u].xyz, bitcast<u32>(extinction.w), bitcast<u32>(scattering.w));
+    let emission = tables[at + 2u];
+    return Medium(
+        extinction.xyz, scattering.xyz, emission.xyz, bitcast<u32>(extinction.w), bitcast<u32>(scattering.w), bitcast<u32>(emission.w)
+    );
 }
 
 // Beer and Lambert's law: the share of light that is left after a distance.

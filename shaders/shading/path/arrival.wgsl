@@ -6,6 +6,7 @@
 #import shading/light/place.wgsl
 #import shading/medium/free_flight.wgsl
 #import shading/medium/medium.wgsl
+#import shading/medium/tracking.wgsl
 #import shading/medium/stack.wgsl
 #import shading/path/record.wgsl
 #import shading/surface.wgsl
@@ -39,6 +40,12 @@ fn pivot_of(path: Path, extinction: Spectrum, ray_length: f32, vertex: u32) -> L
 
 // A path whose ray of this length leads to vertex number `vertex`.
 fn arrive(path: Path, ray_length: f32, vertex: u32) -> Arrival {
+    if HAS_MEDIUM_GRIDS && innermost(path.media) != 0u {
+        let medium = load_medium(innermost(path.media));
+        if (medium.flags & MEDIUM_VARIES) != 0u {
+            return arrive_through_grids(path, medium, ray_length, vertex);
+        }
+    }
     if HAS_SCATTERING {
         return arrive_through_medium(path, ray_length, vertex);
     }
@@ -47,6 +54,30 @@ fn arrive(path: Path, ray_length: f32, vertex: u32) -> Arrival {
         radiance = radiance_of_medium(path, ray_length);
     }
     return Arrival(radiance, arriving_throughput(path, ray_length), 0u, ray_length);
+}
+
+// Such a path within a medium that differs from place to place.
+fn arrive_through_grids(path: Path, medium: Medium, ray_length: f32, vertex: u32) -> Arrival {
+    var arrival = Arrival(BLACK, path.throughput, 0u, ray_length);
+    let random = random_block(path.pixel, path.sample_in_pass, FIRST_MEDIUM_BLOCK + vertex - 1u);
+    let scatters = (medium.flags & MEDIUM_SCATTERS) != 0u;
+    let emits = HAS_MEDIUM_EMISSION && any(medium.emission != BLACK);
+    if emits || !scatters {
+        let passage = pass_through(medium, path.ray, ray_length, emits, random.w);
+        arrival.radiance = path.throughput * passage.given_off;
+        if !scatters {
+            arrival.throughput *= passage.left;
+        }
+    }
+    if HAS_SCATTERING {
+        if scatters {
+            let flight = track(medium, path.throughput, path.ray, min(ray_length, FARTHEST), random.z);
+            arrival.throughput *= flight.weight;
+            arrival.phase = select(0u, medium.phase, flight.is_scattered);
+            arrival.distance = flight.distance;
+        }
+    }
+    return arrival;
 }
 
 // Such a path in a scene with media that scatter.

@@ -80,8 +80,17 @@ fn shading_point(surface: Surface) -> vec3<f32> {
     return surface.position + surface.error * surface.facing_normal;
 }
 
+// Key of the random numbers by which a shadow ray passes media with grids, from the bits of its light sample.
+fn passage_key(light_bits: vec4<u32>) -> u32 {
+    if HAS_MEDIUM_GRIDS {
+        return mix_bits(light_bits.x ^ mix_bits(light_bits.y ^ mix_bits(light_bits.z)));
+    } else {
+        return 0u;
+    }
+}
+
 // The shadow ray of one of the light samples that a surface takes, chosen by `light_bits`, given the surface's value towards it.
-fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, light_bits: u32, value: BsdfValue) -> ShadowRay {
+fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, light_bits: vec4<u32>, value: BsdfValue) -> ShadowRay {
     let sampled_from = shading_point(surface);
     var ray = Ray(sampled_from, light.wi);
     var ray_length = light.distance;
@@ -110,9 +119,9 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
     } else {
         radiance = radiance / count;
     }
-    let chosen = traced_light(sampled_from, facing_of(surface), light_bits);
+    let chosen = traced_light(sampled_from, facing_of(surface), light_bits.x);
     trace_light(light.wi, pdf_light, radiance, weight, chosen, value.pdf_solid_angle);
-    return ShadowRay(ray, ray_length, in_layer(radiance, depth + 1u), media);
+    return ShadowRay(ray, ray_length, in_layer(radiance, depth + 1u), media, passage_key(light_bits));
 }
 
 // The shadow ray of light sample `number`, not the first, of a vertex that takes more.
@@ -121,7 +130,7 @@ fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
     let light_bits = further_light_bits(lit.path.pixel, lit.path.sample_in_pass, lit.vertex, depth, number);
     let light = sample_light(shading_point(lit.surface), facing_of(lit.surface), light_bits);
     let value = evaluate_scatterer(lit.scatterer, lit.surface, -lit.path.ray.direction, light.wi);
-    return shadow_ray(lit.path, lit.surface, depth, light, light_bits.x, value);
+    return shadow_ray(lit.path, lit.surface, depth, light, light_bits, value);
 }
 
 #if !LAYER_OF_SURFACES
@@ -200,7 +209,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     );
     if samples_light {
         shading.light_samples = light_samples_at(depth);
-        shading.shadow = shadow_ray(incoming, surface, depth, light, random.x, scattering.towards_light);
+        shading.shadow = shadow_ray(incoming, surface, depth, light, random, scattering.towards_light);
         shading.lit = LitVertex(incoming, vertex, surface, scatterer);
     }
 

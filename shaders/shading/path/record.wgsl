@@ -35,6 +35,8 @@ struct ShadowRay {
     radiance: Spectrum,
     // With OPEN_BOUNDARIES, the media around its origin.
     media: MediumStack,
+    // With MEDIUM_GRIDS, the key of the random numbers by which they are passed.
+    key: u32,
 }
 
 // The start of light samples of a vertex.
@@ -103,7 +105,7 @@ fn facing_of_lit_vertex(path: Path) -> u32 {
 }
 
 fn no_shadow_ray() -> ShadowRay {
-    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, BLACK, MediumStack(0u));
+    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, BLACK, MediumStack(0u), 0u);
 }
 
 // True where the path may gain anything from the shadow ray.

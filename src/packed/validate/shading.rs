@@ -43,7 +43,7 @@ impl PackedScene {
         for (index, material) in materials.materials.iter().enumerate() {
             self.check_material(material).map_err(|message| format!("material {index} {message}"))?;
         }
-        materials.media.check()?;
+        materials.media.check(self.textures.texel_words())?;
         for (index, part) in materials.parts.iter().enumerate() {
             let count = part.factor_count & !material::PART_FRONT_ONLY;
             if !is_within(part.first_factor, count, materials.weights.len()) {

@@ -45,6 +45,8 @@ pub struct Principled {
     pub specular: f64,
     pub specular_color: Spectrum,
     pub transmission: f64,
+    /// The colour by which light goes through.
+    pub tint: Spectrum,
     /// Share of the diffuse base that scatters light on, and the colour by which it does.
     pub diffuse_transmission: f64,
     pub diffuse_transmission_color: Spectrum,
@@ -174,7 +176,7 @@ impl Principled {
         let DiffuseBase { back, on } = self.diffuse_base(view);
         let diffuse = passed * back.max_component() + taken;
         let diffuse_transmission = passed * on.max_component() * eta * eta;
-        let transmission = passed * self.transmission * self.base.max_component();
+        let transmission = passed * self.transmission * self.tint.max_component();
         let sum = coat + (1.0 - coat) * (reflection + diffuse + diffuse_transmission + transmission);
         let of = |share: f64| if sum > 0.0 { share / sum } else { 0.0 };
         Shares {
@@ -282,7 +284,7 @@ impl Principled {
             (shadowed, common * self.facets.masking(wo) * eta * eta, cos_o, eta)
         };
         let passed = self.split(cosine, eta).passed * self.below_sheen(wo.z, -local.z);
-        let value = self.base * (shares.below_coat * passed * self.transmission * shadowed);
+        let value = self.tint * (shares.below_coat * passed * self.transmission * shadowed);
         Some(Evaluation { value, pdf: shares.transmission * density })
     }
 
@@ -299,7 +301,7 @@ impl Principled {
         let eta = if self.is_thin() { 1.0 } else { self.eta(view) };
         let wi = if self.is_thin() { -view.wo } else { refract(view.wo, view.normal(), eta)? };
         let passed = self.split(cosine, eta).passed * self.below_sheen(cosine, wi.dot(view.normal()).abs());
-        let weight = self.base * (shares.below_coat * passed * self.transmission / (shares.transmission * eta * eta));
+        let weight = self.tint * (shares.below_coat * passed * self.transmission / (shares.transmission * eta * eta));
         let is_possible = self.is_thin() || view.transmits(wi);
         (is_possible && passed > 0.0).then_some(BsdfSample { wi, weight, density: Density::Delta, eta, is_null: false })
     }
@@ -357,7 +359,8 @@ impl Scatter for Principled {
             ior: written.ior,
             specular: lookup.scalar(&written.specular),
             specular_color: lookup.color(&written.specular_color),
-            transmission: lookup.scalar(&written.transmission),
+            transmission: lookup.scalar(&written.let_through()),
+            tint: if written.subsurface.is_some() { Spectrum::WHITE } else { lookup.color(&written.base_color) },
             diffuse_transmission: lookup.scalar(&written.diffuse_transmission),
             diffuse_transmission_color: lookup.color(&written.diffuse_transmission_color),
             thin: written.thin,

@@ -10,6 +10,7 @@ use crate::reference::intersect::{Outline, Owner, PathTime, Ray, World};
 use crate::reference::lights::Lights;
 use crate::reference::medium::MediumStack;
 use crate::renderer::RenderError;
+use crate::sampling::hash::mix;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::{Guide, LightCells, LitPoint};
 use crate::scene::{ColorInput, Emission, Emitters, LightChoice, Media, RenderSettings, Scene};
@@ -130,7 +131,8 @@ impl Integrator {
             return [0.0; 2];
         }
         let ray = Ray { origin: from.point, direction: sample.wi };
-        let through = self.shadow_transmittance(ray, &sample, MediumStack::around(self.media.around_camera), &time);
+        let media = (MediumStack::around(self.media.around_camera), mix(numbers[0] ^ mix(numbers[1])));
+        let through = self.shadow_transmittance(ray, &sample, media, &time);
         let free = sample.radiance.luminance() * cosine / sample.pdf;
         // Surfaces let as much of every channel through.
         [free, free * through.max_component()]

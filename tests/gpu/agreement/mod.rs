@@ -43,7 +43,7 @@ fn compare_on(device: &Device, scene: &Scene, options: &PlanOptions) -> Verdict 
     verify::compare(scene, &mut gpu, &mut cpu, None).expect("both render")
 }
 
-fn assert_agrees(what: &str, scene: &Scene, options: &PlanOptions) {
+pub fn assert_agrees(what: &str, scene: &Scene, options: &PlanOptions) {
     let Some(device) = DEVICE.as_ref() else { return };
     assert_agrees_on(device, what, scene, options);
 }

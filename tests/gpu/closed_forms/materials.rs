@@ -184,6 +184,7 @@ fn plain_principled(base: Spectrum, metallic: f64, roughness: f64, transmission:
         transmission: grey(transmission),
         diffuse_transmission: ColorInput::grey(0.0),
         diffuse_transmission_color: ColorInput::grey(1.0),
+        subsurface: None,
         thin_film: None,
         thin_film_share: ColorInput::grey(0.0),
         thin: true,

@@ -7,8 +7,10 @@
 
 mod airlight;
 mod furnaces;
+mod grids;
 mod half_space;
 mod layers;
 mod lines;
+mod subsurface;
 mod text;
 mod truth;

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use super::examples;
 
 /// Name and text of every built-in scene that is a file; the first is the default.
-const SCENES: [(&str, &str); 33] = [
+const SCENES: [(&str, &str); 34] = [
     ("cornell", include_str!("../../../../scenes/cornell.toml")),
     ("spheres", include_str!("../../../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../../../scenes/veach-mis.toml")),
@@ -34,6 +34,7 @@ const SCENES: [(&str, &str); 33] = [
     ("planetarium", include_str!("../../../../scenes/planetarium.toml")),
     ("cellar", include_str!("../../../../scenes/cellar.toml")),
     ("mist", include_str!("../../../../scenes/mist.toml")),
+    ("bonfire", include_str!("../../../../scenes/bonfire.toml")),
     ("model-town", include_str!("../../../../scenes/model-town.toml")),
     ("furnace-lambert", include_str!("../../../../scenes/furnace-lambert.toml")),
     ("furnace-box", include_str!("../../../../scenes/furnace-box.toml")),

@@ -73,6 +73,8 @@ fn load_file<'a>(
         );
     }
     scene.warnings.splice(0..0, imported.warnings);
+    let of_boundaries = scene.boundary_warnings();
+    scene.warnings.extend(of_boundaries);
     scene.import_report = imported.report;
     Ok(scene)
 }

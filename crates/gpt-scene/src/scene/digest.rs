@@ -18,12 +18,12 @@ pub fn digest(scene: &Scene) -> String {
     BulkDigest::of(scene).digest(scene)
 }
 
-/// A fingerprint in the making, of meshes and pictures alone: what frames of one scene have in common, and what takes time.
+/// A fingerprint in the making, of meshes, pictures and grids alone: what frames of one scene have in common, and what takes time.
 #[derive(Clone)]
 pub struct BulkDigest(Sha256);
 
 impl BulkDigest {
-    /// Reads all meshes and pictures of a scene.
+    /// Reads all meshes, pictures and grids of a scene.
     pub fn of(scene: &Scene) -> Self {
         // Bulk data is hashed as bytes, since printing millions of numbers takes seconds; the rest by how it prints.
         let mut hash = Sha256::new();
@@ -40,6 +40,9 @@ impl BulkDigest {
         for image in scene.lights.iter().filter_map(Light::image) {
             hash_image(&mut hash, image);
         }
+        for grids in scene.media.iter().filter_map(|medium| medium.grids.as_ref()) {
+            grids.hash_into(&mut hash);
+        }
         Self(hash)
     }
 
@@ -49,7 +52,7 @@ impl BulkDigest {
     }
 }
 
-/// Adds everything but the contents of meshes and pictures.
+/// Adds everything but the contents of meshes, pictures and grids.
 fn finish(mut hash: Sha256, scene: &Scene) -> String {
     let mut rest = scene.clone();
     let of_groups = rest.groups.iter_mut().flat_map(|group| &mut group.shapes);
@@ -77,10 +80,23 @@ fn finish(mut hash: Sha256, scene: &Scene) -> String {
         debug_assert!(printed.is_ok(), "hashing cannot fail");
     }
     debug_assert!(printed.is_ok(), "hashing cannot fail");
+    hash_media(&mut hash, &mut rest);
     hash.finalize().iter().fold(String::new(), |mut hexadecimal, byte| {
         let _ = write!(hexadecimal, "{byte:02x}");
         hexadecimal
     })
+}
+
+/// Hashes media, where there are any; the values of their grids have been hashed.
+fn hash_media(hash: &mut Sha256, scene: &mut Scene) {
+    if scene.media.is_empty() {
+        return;
+    }
+    for grids in scene.media.iter_mut().filter_map(|medium| medium.grids.as_mut()) {
+        *grids = Arc::new(grids.without_values());
+    }
+    let printed = write!(HashWriter(hash), "{:?}", (&scene.media, scene.camera_medium));
+    debug_assert!(printed.is_ok(), "hashing cannot fail");
 }
 
 /// Hashes groups and instances, where there are any; the groups' meshes have been hashed.

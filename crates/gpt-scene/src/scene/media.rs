@@ -1,7 +1,10 @@
 //! The media that bodies of a scene enclose.
 
+use std::sync::Arc;
+
 use super::material::{Material, MaterialId, MaterialKind};
 use super::medium::{Medium, Phase};
+use super::medium_grids::MediumGrids;
 use super::model::Scene;
 use super::texture::ColorInput;
 use crate::spectrum::Spectrum;
@@ -15,6 +18,13 @@ pub const LEAST_ASIDE: f64 = 1e-4;
 /// Surfaces that a shadow ray goes through at most where they bound media.
 pub const MOST_CROSSINGS: u32 = 4096;
 
+/// Places at most at which a ray looks up the density of one medium on its way. A ray that needs more, through what is a million times denser in one
+/// place than beside it, brings nothing.
+pub const MOST_LOOKUPS: u32 = 1 << 16;
+
+/// Light of which a smaller share than this is left along a shadow ray goes on by chance.
+pub const FAINT: f64 = 1.0 / 16.0;
+
 /// The medium within a body, as paths know it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Filling {
@@ -26,6 +36,8 @@ pub struct Filling {
     pub emission: Spectrum,
     /// How light that is scattered is spread over directions.
     pub phase: Phase,
+    /// Grids by which the numbers above are multiplied from place to place.
+    pub grids: Option<Arc<MediumGrids>>,
     /// Light samples reach it: the camera is within it, or a null surface bounds it.
     pub is_lit: bool,
 }
@@ -34,12 +46,20 @@ impl Filling {
     /// Absorbs and does nothing else.
     fn absorbing(extinction: Spectrum) -> Self {
         let (scattering, emission) = (Spectrum::BLACK, Spectrum::BLACK);
-        Self { extinction, scattering, emission, phase: Phase::isotropic(), is_lit: false }
+        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_lit: false }
     }
 
     fn of(medium: &Medium) -> Self {
         let Medium { scattering, emission, .. } = *medium;
-        Self { extinction: medium.extinction(), scattering, emission, phase: medium.phase.clone(), is_lit: false }
+        let (phase, grids) = (medium.phase.clone(), medium.grids.clone());
+        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_lit: false }
+    }
+
+    /// Attenuation per unit length and density by which places are drawn where light passes and is not scattered.
+    pub fn tracking_rate(&self) -> f64 {
+        let emits = !self.emission.is_black();
+        let for_emission = self.grids.as_ref().filter(|_| emits).map_or(0.0, |grids| grids.emission_rate());
+        self.extinction.max_component().max(for_emission)
     }
 
     /// Takes and gives nothing.
@@ -67,13 +87,16 @@ pub struct Media {
 }
 
 impl Media {
-    /// The media of a scene: those that its materials enclose, absorbing bodies of glass, and where there are some, a clear one for all other bodies
+    /// The media of a scene: those that its materials enclose, those below surfaces, absorbing bodies of glass, and where there are some, a clear one for all other bodies
     /// that let light in through a boundary: within another body they take its place. A blend has the medium of the first part that is not clear.
     pub fn of(scene: &Scene) -> Self {
         let own = |material: &Material| match (&material.kind, material.interior) {
             (_, Some(id)) => Some(Filling::of(&scene.media[id])),
             (MaterialKind::Principled(principled), None) if principled.attenuation.is_some() => {
                 principled.attenuation.map(|attenuation| Filling::absorbing(attenuation.extinction()))
+            }
+            (MaterialKind::Principled(principled), None) if principled.subsurface.is_some() => {
+                principled.subsurface.map(|subsurface| Filling::of(&subsurface.medium()))
             }
             (MaterialKind::Principled(principled), None) => (!principled.thin
                 && principled.transmission != ColorInput::grey(0.0))
@@ -128,9 +151,10 @@ impl Media {
         self.is_open.get(material).copied().unwrap_or(false)
     }
 
-    /// Some null surface bounds a medium.
-    pub fn has_open_boundaries(&self) -> bool {
-        self.is_open.contains(&true)
+    /// Shadow rays go from surface to surface: some null surface bounds a medium, or a medium differs from place to place, so that light along them is
+    /// worth the way only where nothing opaque stands on it.
+    pub fn order_shadow_rays(&self) -> bool {
+        self.is_open.contains(&true) || self.fillings.iter().any(|filling| filling.grids.is_some())
     }
 
     /// Some medium gives off light.

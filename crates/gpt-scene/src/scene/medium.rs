@@ -1,11 +1,14 @@
 //! Participating media: what fills a body or the space around the camera, takes light away, scatters it and gives some off.
 
+use std::sync::Arc;
+
+use super::medium_grids::MediumGrids;
 use crate::spectrum::Spectrum;
 
 /// Index into [`crate::scene::Scene::media`].
 pub type MediumId = usize;
 
-/// A homogeneous medium.
+/// A medium: homogeneous, or as its grids say.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Medium {
     /// Name by which materials and the camera refer to it.
@@ -18,6 +21,8 @@ pub struct Medium {
     pub emission: Spectrum,
     /// How light that is scattered is spread over directions.
     pub phase: Phase,
+    /// Grids by which the numbers above are multiplied from place to place; None: they hold everywhere.
+    pub grids: Option<Arc<MediumGrids>>,
 }
 
 impl Medium {
@@ -43,7 +48,7 @@ impl Medium {
         if self.phase.0.iter().any(is_wrong) {
             return Err("the mean cosine of its phase function must be above -1 and below 1".into());
         }
-        Ok(())
+        self.grids.as_ref().map_or(Ok(()), |grids| grids.check())
     }
 }
 

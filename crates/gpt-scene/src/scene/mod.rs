@@ -8,6 +8,7 @@
 
 pub mod animation;
 mod blend_tree;
+mod boundaries;
 pub mod camera;
 mod check;
 mod digest;
@@ -20,6 +21,7 @@ mod light_at;
 pub mod material;
 pub mod media;
 pub mod medium;
+pub mod medium_grids;
 mod model;
 pub mod motion;
 mod placed_groups;
@@ -48,10 +50,12 @@ pub use light::{
 };
 pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, LobeKind, LobeParameters, LobeSupport,
-    Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled, ThinFilm,
+    Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled, Subsurface,
+    ThinFilm,
 };
 pub use media::{Filling, Media};
 pub use medium::{Medium, MediumId, Phase, PhaseKind, PhaseLobe};
+pub use medium_grids::{GridsOfMedium, MediumGrids};
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{

@@ -4,6 +4,7 @@
 //! The picture depends on where things are relative to the camera alone, so renderers first move such a scene, in double precision, until its camera is the origin. Scenes that stand near the origin stay as they are, to the bit.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -48,6 +49,9 @@ impl Scene {
         }
         for light in &mut moved.lights {
             light.translate(-center);
+        }
+        for grids in moved.media.iter_mut().filter_map(|medium| medium.grids.as_mut()) {
+            *grids = Arc::new(grids.translated(-center));
         }
         Cow::Owned(moved)
     }

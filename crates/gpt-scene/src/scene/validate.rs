@@ -9,7 +9,7 @@ use super::blend_tree::check_blends;
 use super::camera::{ApertureShape, Camera, Projection};
 use super::check::{Check, image, is_amount, is_positive, within_range};
 use super::light::{Environment, EnvironmentRadiance, Light};
-use super::material::{BlendWeight, Material, MaterialId, MaterialKind, ParameterType};
+use super::material::{BlendWeight, Material, MaterialId, MaterialKind, ParameterType, Subsurface};
 use super::medium::MediumId;
 use super::model::Scene;
 use super::settings::BadSetting;
@@ -110,6 +110,22 @@ impl Scene {
             && principled.coat_normal_map.is_some_and(|map| !map.scale.is_finite())
         {
             return Err("the scale of its coat's normal map must be finite".into());
+        }
+        if let MaterialKind::Principled(principled) = &material.kind
+            && let Some(Subsurface { color, radius, anisotropy, .. }) = principled.subsurface
+        {
+            if !(color.is_finite() && color.min_component() >= 0.0 && color.max_component() <= 1.0) {
+                return Err("its colour below the surface must be from 0 to 1".into());
+            }
+            if !(radius.is_finite() && radius.min_component() > 0.0) {
+                return Err("its mean free path below the surface must be finite and above 0".into());
+            }
+            if !(-0.999..=0.999).contains(&anisotropy) {
+                return Err("its mean cosine below the surface must be from -0.999 to 0.999".into());
+            }
+            if principled.thin || principled.attenuation.is_some() || material.interior.is_some() {
+                return Err("what is below its surface is stated twice".into());
+            }
         }
         let Some(lobe) = material.kind.lobe() else { return Ok(()) };
         if lobe.ior.is_some_and(|ior| !is_positive(ior)) {

@@ -31,7 +31,8 @@ pub fn scene_text(scene: &Scene, path: &Path, names_unreadable: bool) -> (String
         text.push_str(&texture::texture(id, &mut writer));
     }
     for (id, medium) in scene.media.iter().enumerate() {
-        text.push_str(&format!("\n[[medium]]\n{}{}", line("name", &writer.media.quoted(id)), write_medium(medium)));
+        let keys = write_medium(medium, &mut writer);
+        text.push_str(&format!("\n[[medium]]\n{}{keys}", line("name", &writer.media.quoted(id))));
     }
     for id in needed.materials() {
         text.push_str(&material::material(id, &writer));

@@ -1,21 +1,35 @@
 //! `[[medium]]`
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::colour::Rgb;
 use super::resolver::Resolver;
-use super::value::{Checked, Fraction, Located, MeanCosine, NonNegative, Positive};
-use super::writer::{colour, line, list, number, table, text};
+use super::value::{Checked, Fraction, GasTemperature, LARGEST, Located, MeanCosine, NonNegative, Positive};
+use super::volume::{VolumeEntry, write_volume};
+use super::writer::{Writer, colour, line, list, number, table, text};
+use crate::black_body::glow;
 use crate::load::error::SceneError;
-use crate::scene::{Medium, Phase, PhaseKind, PhaseLobe};
+use crate::scene::{GridsOfMedium, Medium, MediumGrids, Outside, Phase, PhaseKind, PhaseLobe, Volume, VoxelGrid};
 use crate::spectrum::Spectrum;
 
 /// A medium that fills bodies (`interior` of a material) or the space around the camera (`medium` of the camera). Either `absorption` and
-/// `scattering` say how dense it is, or `albedo` and `mean_free_path` do.
+/// `scattering` say how dense it is, or `albedo` and `mean_free_path` do. With `density` it differs from place to place.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "MediumEntry", extend("dependentRequired" = { "albedo": ["mean_free_path"], "mean_free_path": ["albedo"] }))]
+#[schemars(rename = "MediumEntry", extend(
+    "dependentRequired" = {
+        "albedo": ["mean_free_path"], "albedo_grid": ["density", "mean_free_path"], "emission_grid": ["density", "emission"],
+        "temperature": ["density", "emission"],
+    },
+    "allOf" = [
+        { "if": { "required": ["mean_free_path"] }, "then": { "anyOf": [{ "required": ["albedo"] }, { "required": ["albedo_grid"] }] } },
+        { "not": { "required": ["albedo", "albedo_grid"] } },
+        { "not": { "required": ["emission_grid", "temperature"] } },
+    ],
+))]
 pub struct MediumEntry {
     /// Name by which materials and the camera refer to the medium.
     #[schemars(extend("minLength" = 1))]
@@ -32,6 +46,15 @@ pub struct MediumEntry {
     pub emission: Option<Rgb<NonNegative>>,
     /// How scattered light is spread over directions; isotropic when left out.
     pub phase: Option<PhaseEntry>,
+    /// A grid of one number for each voxel, in the space of the scene: from place to place, what is absorbed, scattered and given off is multiplied by it.
+    pub density: Option<Located<VolumeEntry>>,
+    /// With `density`, in place of `albedo`: a grid of the share that is scattered of the light that is lost to a ray.
+    pub albedo_grid: Option<Located<VolumeEntry>>,
+    /// With `density`: a grid by which `emission` is multiplied as well.
+    pub emission_grid: Option<Located<VolumeEntry>>,
+    /// With `density`, in place of `emission_grid`: a grid of temperatures in kelvin. A black body's light is given off, whose brightest channel where
+    /// the grid is hottest is `emission`.
+    pub temperature: Option<Located<VolumeEntry>>,
 }
 
 /// A phase function.
@@ -71,29 +94,107 @@ pub struct PhaseBlendKeys {
 }
 
 impl MediumEntry {
-    pub fn resolve(&self, resolver: &Resolver<'_>) -> Result<Medium, SceneError> {
+    pub fn resolve(&self, resolver: &mut Resolver<'_>) -> Result<Medium, SceneError> {
+        let [absorption, scattering] = self.attenuation(resolver)?;
+        let phase = self.phase.as_ref().map_or(Ok(Phase::isotropic()), |phase| phase.resolve(resolver))?;
+        let emission = self.emission.as_ref().map_or(Spectrum::BLACK, |emission| emission.0);
+        let grids = self.grids(resolver)?;
+        Ok(Medium { name: self.name.value.clone(), absorption, scattering, emission, phase, grids })
+    }
+
+    /// Absorption and scattering per unit length.
+    fn attenuation(&self, resolver: &Resolver<'_>) -> Result<[Spectrum; 2], SceneError> {
         let value =
             |written: &Option<Located<Rgb<NonNegative>>>| written.as_ref().map_or(Spectrum::BLACK, |written| written.value.0);
-        let [absorption, scattering] = match (&self.albedo, &self.mean_free_path) {
-            (None, None) => [value(&self.absorption), value(&self.scattering)],
-            (Some(albedo), Some(path)) => {
+        if let (Some(_), Some(grid)) = (&self.albedo, &self.albedo_grid) {
+            return Err(resolver.error(&grid.place, "a medium has `albedo` or `albedo_grid`, not both"));
+        }
+        let albedo = match (&self.albedo, &self.albedo_grid) {
+            (Some(albedo), _) => Some((albedo.value.0, "albedo", &albedo.place)),
+            (None, Some(grid)) => Some((Spectrum::WHITE, "albedo_grid", &grid.place)),
+            (None, None) => None,
+        };
+        match (albedo, &self.mean_free_path) {
+            (None, None) => Ok([value(&self.absorption), value(&self.scattering)]),
+            (Some((albedo, key, _)), Some(path)) => {
                 if let Some(other) = self.absorption.as_ref().or(self.scattering.as_ref()) {
-                    let message = "a medium has `absorption` and `scattering`, or `albedo` and `mean_free_path`, not both";
+                    let message =
+                        format!("a medium has `absorption` and `scattering`, or `{key}` and `mean_free_path`, not both");
                     return Err(resolver.error(&other.place, message));
                 }
                 let extinction = Spectrum::WHITE / path.value.0;
-                let scattering = albedo.value.0 * extinction;
-                [extinction - scattering, scattering]
+                let scattering = albedo * extinction;
+                Ok([extinction - scattering, scattering])
             }
-            (Some(Located { place, .. }), None) => {
-                return Err(resolver.error(place, "`albedo` needs the key `mean_free_path`, which says how dense the medium is"));
+            (Some((_, key, place)), None) => {
+                let message = format!("`{key}` needs the key `mean_free_path`, which says how dense the medium is");
+                Err(resolver.error(place, message))
             }
-            (None, Some(Located { place, .. })) => return Err(resolver.error(place, "`mean_free_path` needs the key `albedo`")),
-        };
-        let phase = self.phase.as_ref().map_or(Ok(Phase::isotropic()), |phase| phase.resolve(resolver))?;
-        let emission = self.emission.as_ref().map_or(Spectrum::BLACK, |emission| emission.0);
-        Ok(Medium { name: self.name.value.clone(), absorption, scattering, emission, phase })
+            (None, Some(Located { place, .. })) => Err(resolver.error(place, "`mean_free_path` needs the key `albedo`")),
+        }
     }
+
+    /// Grids, by which the medium differs from place to place.
+    fn grids(&self, resolver: &mut Resolver<'_>) -> Result<Option<Arc<MediumGrids>>, SceneError> {
+        let others =
+            [("albedo_grid", &self.albedo_grid), ("emission_grid", &self.emission_grid), ("temperature", &self.temperature)];
+        let Some(density) = &self.density else {
+            let without = others.into_iter().find_map(|(key, grid)| grid.as_ref().map(|grid| (key, &grid.place)));
+            return without.map_or(Ok(None), |(key, place)| {
+                Err(resolver.error(place, format!("`{key}` needs the key `density`, the grid that says where the medium is")))
+            });
+        };
+        if let (Some(_), Some(grid)) = (&self.emission_grid, &self.temperature) {
+            return Err(resolver.error(&grid.place, "a medium has `emission_grid` or `temperature`, not both"));
+        }
+        for (key, grid) in &others[1..] {
+            if let (Some(grid), None) = (grid, &self.emission) {
+                let message = format!("`{key}` needs the key `emission`, which says how much light is given off");
+                return Err(resolver.error(&grid.place, message));
+            }
+        }
+        let of_density = resolver.volume::<NonNegative>(&density.value, &density.place)?;
+        let albedo = match &self.albedo_grid {
+            Some(grid) => Some(resolver.volume::<Fraction>(&grid.value, &grid.place)?),
+            None => None,
+        };
+        let emission = match (&self.emission_grid, &self.temperature) {
+            (Some(grid), _) => Some(resolver.volume::<NonNegative>(&grid.value, &grid.place)?),
+            (None, Some(grid)) => {
+                let kelvin = resolver.volume::<GasTemperature>(&grid.value, &grid.place)?;
+                Some(glowing(&kelvin).map_err(|reason| resolver.error(&grid.place, reason))?)
+            }
+            (None, None) => None,
+        };
+        let grids = MediumGrids::new(GridsOfMedium { density: of_density, albedo, emission });
+        grids.check().map_err(|reason| resolver.error(&density.place, reason))?;
+        Ok(Some(Arc::new(grids)))
+    }
+}
+
+/// Steps of the table of what black bodies give off, from the coldest to the hottest.
+const GLOW_STEPS: usize = 4096;
+
+/// The light that black bodies of these temperatures give off, the brightest channel of the hottest voxel 1.
+fn glowing(kelvin: &Volume) -> Result<Volume, String> {
+    if kelvin.grid.channels() != 1 {
+        return Err("the grid has colours, and a temperature is one number".to_owned());
+    }
+    let hottest = kelvin.range()[1];
+    let steps = (0..=GLOW_STEPS).map(|step| glow(hottest * step as f64 / GLOW_STEPS as f64, hottest));
+    let table: Vec<Spectrum> = if hottest < 500.0 { vec![Spectrum::BLACK; GLOW_STEPS + 1] } else { steps.collect() };
+    let light = |kelvin: f64| {
+        let at = if hottest > 0.0 { kelvin / hottest * GLOW_STEPS as f64 } else { 0.0 };
+        let low = (at as usize).min(GLOW_STEPS - 1);
+        table[low] + (table[low + 1] - table[low]) * (at - low as f64)
+    };
+    let values = kelvin.grid.values().iter().flat_map(|&value| light(f64::from(value) * kelvin.scale).to_f32()).collect();
+    let grid = VoxelGrid::new(kelvin.grid.resolution(), 3, values)?;
+    let outside = match kelvin.outside {
+        Outside::Border => Outside::Border,
+        Outside::Constant(value) => Outside::Constant(light(value.r() * kelvin.scale)),
+    };
+    Ok(Volume { grid: Arc::new(grid), outside, scale: 1.0, ..kelvin.clone() })
 }
 
 impl PhaseEntry {
@@ -124,15 +225,30 @@ impl PhaseEntry {
 }
 
 /// The keys of a medium, a line each.
-pub fn write(medium: &Medium) -> String {
+pub fn write(medium: &Medium, writer: &mut Writer<'_>) -> String {
     let mut out = String::new();
-    for (key, value) in [("absorption", medium.absorption), ("scattering", medium.scattering), ("emission", medium.emission)] {
-        if !value.is_black() {
-            out += &line(key, &colour(value));
+    let grids = medium.grids.as_deref();
+    if grids.is_some_and(|grids| grids.albedo().is_some()) {
+        // The grid says which share of the two together is scattered.
+        out += &line("mean_free_path", &colour((Spectrum::WHITE / medium.extinction()).min(Spectrum::grey(LARGEST))));
+    } else {
+        for (key, value) in [("absorption", medium.absorption), ("scattering", medium.scattering)] {
+            if !value.is_black() {
+                out += &line(key, &colour(value));
+            }
         }
+    }
+    if !medium.emission.is_black() {
+        out += &line("emission", &colour(medium.emission));
     }
     if medium.phase != Phase::isotropic() {
         out += &line("phase", &phase(&medium.phase));
+    }
+    if let Some(grids) = grids {
+        let volumes = [("density", Some(grids.density())), ("albedo_grid", grids.albedo()), ("emission_grid", grids.emission())];
+        for (key, volume) in volumes {
+            out += &volume.map_or_else(String::new, |volume| line(key, &write_volume(volume, writer)));
+        }
     }
     out
 }

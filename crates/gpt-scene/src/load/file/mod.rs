@@ -24,8 +24,6 @@ pub(super) mod shape;
 mod suggestion;
 pub(super) mod syntax;
 pub(super) mod value;
-// Entries of media name it.
-#[cfg_attr(not(test), allow(dead_code))]
 pub(crate) mod volume;
 pub(crate) mod writer;
 

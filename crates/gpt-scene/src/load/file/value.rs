@@ -60,6 +60,7 @@ rules! {
         const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 90.0; const ABOVE_MINIMUM: bool = true;
     }
     Temperature "a temperature from 1000 to 40000 (kelvin)" { const MINIMUM: f64 = 1000.0; const MAXIMUM: f64 = 40_000.0; }
+    GasTemperature "a temperature from 0 to 40000 (kelvin)" { const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 40_000.0; }
     MeanCosine "a mean cosine from -0.999 to 0.999" { const MINIMUM: f64 = -0.999; const MAXIMUM: f64 = 0.999; }
     FilmIndex "an index of refraction from 1 to 10" { const MINIMUM: f64 = 1.0; const MAXIMUM: f64 = 10.0; }
     IndexOfRefraction "an index of refraction from 0.1 to 10" { const MINIMUM: f64 = 0.1; const MAXIMUM: f64 = 10.0; }

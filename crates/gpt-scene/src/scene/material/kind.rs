@@ -118,6 +118,8 @@ pub const DIRECTED: u32 = 4096;
 pub const DIFFUSE_TRANSMITS: u32 = 8192;
 /// A film on the surface makes light interfere.
 pub const THIN_FILM: u32 = 16384;
+/// Light that the base lets in keeps its colour: the medium below gives it one.
+pub const UNTINTED: u32 = 32768;
 /// All of these.
 pub const FORMS: u32 = COMPLEX_FRESNEL
     | BECKMANN
@@ -132,7 +134,8 @@ pub const FORMS: u32 = COMPLEX_FRESNEL
     | COAT_NORMAL_MAP
     | DIRECTED
     | DIFFUSE_TRANSMITS
-    | THIN_FILM;
+    | THIN_FILM
+    | UNTINTED;
 
 /// Entries that the transmittance of rough plastic takes.
 const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
@@ -321,7 +324,8 @@ impl Principled {
         let form = if self.masking == Masking::Separable { SEPARABLE_MASKING } else { 0 }
             | if self.anisotropy.is_some() { ANISOTROPIC } else { 0 }
             | if self.thin { THIN_WALL } else { 0 }
-            | if self.transmission == zero { 0 } else { TRANSMITS }
+            | if self.let_through() == zero { 0 } else { TRANSMITS }
+            | if self.subsurface.is_some() { UNTINTED } else { 0 }
             | if self.energy_compensation { COMPENSATED } else { 0 }
             | if self.sheen_color == zero { 0 } else { SHEEN }
             | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 }
@@ -332,7 +336,7 @@ impl Principled {
         let mut further = parameters::Principled {
             metallic: self.metallic,
             specular: self.specular,
-            transmission: self.transmission,
+            transmission: self.let_through(),
             coat: self.clearcoat,
             coat_roughness: self.clearcoat_roughness,
             anisotropy: self.anisotropy.unwrap_or(zero),

@@ -19,12 +19,12 @@ pub use dispersion::Dispersion;
 pub use kind::{
     ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
     DIFFUSE_TRANSMITS, DIRECTED, FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND,
-    SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS, iors,
+    SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS, UNTINTED, iors,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use parameters::{Parameter, ParameterType};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
-pub use principled::{Attenuation, CoatNormalMap, Principled};
+pub use principled::{Attenuation, CoatNormalMap, Principled, Subsurface};
 #[doc(hidden)]
 pub use table::material_table;
 pub use table::{LobeKind, LobeSupport, MaterialId};
@@ -62,7 +62,7 @@ impl Material {
         match &self.kind {
             MaterialKind::Mirror { .. } | MaterialKind::Glass { .. } | MaterialKind::RoughGlass { .. } => true,
             MaterialKind::Conductor { facets, .. } => facets.are_smooth(),
-            MaterialKind::Principled(principled) => principled.transmission != ColorInput::grey(0.0),
+            MaterialKind::Principled(principled) => principled.let_through() != ColorInput::grey(0.0),
             _ => false,
         }
     }

@@ -4,6 +4,7 @@ use crate::spectrum::Spectrum;
 
 use super::microfacets::Masking;
 use super::thin_film::ThinFilm;
+use crate::scene::medium::{Medium, Phase, PhaseKind};
 use crate::scene::texture::{ColorInput, TextureId};
 
 /// Largest share of the base's samples that the surface's reflection takes: facets that are turned away from the normal let
@@ -33,6 +34,8 @@ pub struct Principled {
     /// Share of the diffuse base that sends light on to the other side instead of back, and the colour by which it does.
     pub diffuse_transmission: ColorInput,
     pub diffuse_transmission_color: ColorInput,
+    /// Light that enters the body and is scattered there, in place of what the base lets through.
+    pub subsurface: Option<Subsurface>,
     /// True for a wall without thickness, which lets light through without bending it.
     pub thin: bool,
     /// The attenuation behind the surface; None where nothing takes light.
@@ -59,6 +62,20 @@ pub struct Principled {
     pub energy_compensation: bool,
 }
 
+/// Scattering below a surface (OpenPBR 1.1, "Subsurface"): light is bent as it enters the body and as it leaves it, and scattered by the medium
+/// within.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Subsurface {
+    /// Share of the dielectric's base that lets light in instead of scattering it back.
+    pub weight: ColorInput,
+    /// Share of light that comes back from a deep body whose boundary does not reflect.
+    pub color: Spectrum,
+    /// Mean free path in scene units.
+    pub radius: Spectrum,
+    /// Mean cosine between the directions before and after light is scattered.
+    pub anisotropy: f64,
+}
+
 /// Tangent-space normals of a coat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoatNormalMap {
@@ -77,9 +94,31 @@ pub struct Attenuation {
 }
 
 impl Principled {
+    /// Share of the dielectric's base that lets light through or in.
+    pub fn let_through(&self) -> ColorInput {
+        self.subsurface.map_or(self.transmission, |subsurface| subsurface.weight)
+    }
+
     /// Some of it may be coated.
     pub fn is_coated(&self) -> bool {
         self.clearcoat != ColorInput::grey(0.0)
+    }
+}
+
+impl Subsurface {
+    /// The medium within the body. Its albedo is that of which a deep body sends the colour back: van de Hulst's relation, inverted as OpenPBR 1.1 has
+    /// it.
+    pub fn medium(&self) -> Medium {
+        let g = self.anisotropy;
+        let single = |color: f64| {
+            let s = 4.09712 + 4.20863 * color - (9.59217 + 41.6808 * color + 17.7126 * color * color).sqrt();
+            ((1.0 - s * s) / (1.0 - g * s * s)).clamp(0.0, 1.0)
+        };
+        let extinction = Spectrum::WHITE / self.radius;
+        let scattering = extinction * self.color.map(single);
+        let phase = Phase::of(PhaseKind::HenyeyGreenstein { g });
+        let name = String::new();
+        Medium { name, absorption: extinction - scattering, scattering, emission: Spectrum::BLACK, phase, grids: None }
     }
 }
 
@@ -92,5 +131,26 @@ impl Attenuation {
         let left = self.color.clamp(Spectrum::grey(SMALLEST_ATTENUATION_COLOR), Spectrum::WHITE);
         // Not −0.
         (left.map(f64::ln) / -self.distance).map(f64::abs)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_that_send_all_light_back_absorb_none() {
+        let of = |color: f64, anisotropy: f64| {
+            let weight = ColorInput::grey(1.0);
+            Subsurface { weight, color: Spectrum::grey(color), radius: Spectrum::grey(0.5), anisotropy }.medium()
+        };
+        for g in [-0.6, 0.0, 0.8] {
+            let [white, black] = [of(1.0, g), of(0.0, g)];
+            assert!(white.absorption.max_component() < 1e-4 && (white.scattering.r() - 2.0).abs() < 1e-4, "{white:?}");
+            assert!(black.scattering.max_component() < 1e-4, "{black:?}");
+        }
+        // By the H function of Chandrasekhar 1960, a half space of albedo 0.9 sends back 0.4780 of light that comes from everywhere.
+        let grey = of(0.478, 0.0);
+        assert!((grey.scattering.r() / 2.0 - 0.9).abs() < 5e-3, "{grey:?}");
     }
 }

@@ -1,5 +1,6 @@
 //! Surfaces, and the table of shapes.
 
+mod closed_mesh;
 mod cuboid;
 mod cylinder;
 mod disk;

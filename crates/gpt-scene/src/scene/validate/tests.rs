@@ -27,6 +27,7 @@ fn coat_normals(scene: &mut Scene, texture: usize, scale: f64) {
         transmission: zero,
         diffuse_transmission: zero,
         diffuse_transmission_color: one,
+        subsurface: None,
         thin: false,
         attenuation: None,
         clearcoat: one,
@@ -145,7 +146,7 @@ fn each_mistake_is_named_with_its_part() {
     /// Fog, which the camera is within.
     fn medium(scene: &mut Scene) -> &mut Medium {
         let (absorption, scattering, emission) = (Spectrum::grey(0.1), Spectrum::WHITE, Spectrum::BLACK);
-        scene.media.push(Medium { name: "fog".into(), absorption, scattering, emission, phase: Phase::isotropic() });
+        scene.media.push(Medium { name: "fog".into(), absorption, scattering, emission, phase: Phase::isotropic(), grids: None });
         scene.camera_medium = Some(0);
         &mut scene.media[0]
     }

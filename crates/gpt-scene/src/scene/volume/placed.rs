@@ -18,7 +18,7 @@ pub enum Outside {
 }
 
 /// A grid of values that is placed in a medium's space.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Volume {
     /// The values, which several volumes may share.
     pub grid: Arc<VoxelGrid>,
@@ -60,6 +60,29 @@ impl Volume {
         value * self.scale
     }
 
+    /// The value next to a point of index space that is within a coarse cell of this side, or outside of the box. Where rounding puts the point into
+    /// the cell beside, the value is that of the nearest point of its own, whose bounds hold.
+    pub fn in_cell(&self, cell: Option<[u32; 3]>, side: u32, at: DVec3) -> Spectrum {
+        match (cell, self.outside) {
+            (None, Outside::Constant(value)) => value * self.scale,
+            (None, Outside::Border) => self.value_at_index(at),
+            (Some(cell), _) => {
+                let low = DVec3::from_array(cell.map(|cell| f64::from(cell) * f64::from(side)));
+                let high = (low + f64::from(side)).min(DVec3::from_array(self.grid.resolution().map(f64::from)));
+                let value = match self.filter {
+                    VolumeFilter::Nearest => self.grid.nearest(at.clamp(low, high - 1.0 + 0.5)),
+                    VolumeFilter::Trilinear => self.grid.trilinear(at.clamp(low, high)),
+                };
+                value * self.scale
+            }
+        }
+    }
+
+    /// Moves the volume with the space around it.
+    pub fn translate(&mut self, by: DVec3) {
+        self.to_index *= DAffine3::from_translation(-by);
+    }
+
     /// The smallest and the largest value of any channel anywhere.
     pub fn range(&self) -> [f64; 2] {
         let [low, high] = self.grid.range().map(f64::from);
@@ -94,5 +117,13 @@ impl Volume {
             Outside::Constant(value) if !is_amount(value) => Err("its value outside is negative or no number".to_owned()),
             Outside::Border | Outside::Constant(_) => Ok(()),
         }
+    }
+}
+
+/// Volumes that share a grid are not compared voxel by voxel.
+impl PartialEq for Volume {
+    fn eq(&self, other: &Self) -> bool {
+        let of = |volume: &Self| (volume.to_index, volume.filter, volume.outside, volume.scale);
+        of(self) == of(other) && (Arc::ptr_eq(&self.grid, &other.grid) || self.grid == other.grid)
     }
 }

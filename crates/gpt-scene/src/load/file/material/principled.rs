@@ -7,10 +7,12 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Rgb, Scalar};
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, FilmIndex, Fraction, IndexOfRefraction, Located, NonNegative, Number, Positive};
+use crate::load::file::value::{
+    Checked, FilmIndex, Fraction, IndexOfRefraction, Located, MeanCosine, NonNegative, Number, Positive,
+};
 use crate::load::file::writer::{self, Writer, flag, line, number};
 use crate::load::place::Place;
-use crate::scene::{Attenuation, CoatNormalMap, ColorInput, Masking, MaterialKind, Principled};
+use crate::scene::{Attenuation, CoatNormalMap, ColorInput, Masking, MaterialKind, Principled, Subsurface};
 use crate::spectrum::Spectrum;
 
 material_keys! {
@@ -21,6 +23,10 @@ material_keys! {
             "anisotropy_rotation": ["anisotropy"],
             "anisotropy_direction": ["anisotropy"],
             "thin": ["transmission"],
+            "subsurface": ["subsurface_radius"],
+            "subsurface_color": ["subsurface"],
+            "subsurface_radius": ["subsurface"],
+            "subsurface_anisotropy": ["subsurface"],
             "clearcoat_roughness": ["clearcoat"],
             "coat_normal_map": ["clearcoat"],
             "coat_normal_scale": ["coat_normal_map"],
@@ -36,6 +42,8 @@ material_keys! {
             "if": { "required": ["attenuation_color"] },
             "then": { "anyOf": [{ "required": ["transmission"] }, { "required": ["diffuse_transmission"] }] },
         },
+        { "not": { "required": ["subsurface", "transmission"] } },
+        { "not": { "required": ["subsurface", "diffuse_transmission"] } },
         { "not": { "required": ["attenuation_color", "thin"], "properties": { "thin": { "const": true } } } },
     ]))]
     {
@@ -53,6 +61,14 @@ material_keys! {
         specular_color: Option<Colour<NonNegative>>,
         /// Share of light that goes through the dielectric's base instead of being scattered back; 0 when left out.
         transmission: Option<Scalar<Fraction>>,
+        /// In place of `transmission`: share of light that enters the body through the dielectric's base, is scattered below the surface, and leaves elsewhere; 0 when left out.
+        subsurface: Option<Box<Located<Scalar<Fraction>>>>,
+        /// Share of light that comes back from below, `base_color` when left out.
+        subsurface_color: Option<Located<Rgb<Fraction>>>,
+        /// With `subsurface`: how far light goes below the surface on average before it is scattered or absorbed, in scene units.
+        subsurface_radius: Option<Located<Rgb<Positive>>>,
+        /// Mean cosine between the directions before and after it is scattered there, from -0.999 to 0.999; 0 when left out.
+        subsurface_anisotropy: Option<Located<Checked<MeanCosine>>>,
         /// Share of the light that the diffuse base would scatter back and scatters on instead, behind the surface; 0 when left out.
         diffuse_transmission: Option<Box<Scalar<Fraction>>>,
         /// The colour by which it does, 1 when left out.
@@ -115,6 +131,7 @@ impl MaterialKeys for Keys {
         "base_color = [0.7, 0.5, 0.9]\nmetallic = 0\nroughness = 0.6\nior = 1.3\ntransmission = 0.4\ndiffuse_transmission = 0.7\ndiffuse_transmission_color = [0.9, 0.6, 0.3]\nsheen_color = 0.3\nsheen_roughness = 0.5",
         "base_color = [0.8, 0.4, 0.1]\nmetallic = 0.5\nroughness = 0.3\nthin_film_thickness = 400\nthin_film = 0.8",
         "base_color = [0.4, 0.8, 0.9]\nmetallic = 0\nroughness = 0\nior = 1.4\ntransmission = 1\nthin_film_thickness = 300\nthin_film_offset = 50\nthin_film_ior = 1.6",
+        "base_color = [0.9, 0.6, 0.5]\nmetallic = 0\nroughness = 0.4\nsubsurface = 0.8\nsubsurface_radius = [0.2, 0.1, 0.05]",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -137,6 +154,7 @@ impl MaterialKeys for Keys {
         let diffuse_transmission = self.diffuse_transmission.as_ref().map(|written| resolver.scalar(written)).transpose()?;
         let diffuse_transmission_color =
             self.diffuse_transmission_color.as_ref().map(|written| resolver.colour(&written.value)).transpose()?;
+        let subsurface = self.subsurface(resolver)?;
         let film = ThinFilmKeys {
             thickness: self.thin_film_thickness.as_ref(),
             offset: self.thin_film_offset.as_ref(),
@@ -154,6 +172,7 @@ impl MaterialKeys for Keys {
             transmission: scalar(&self.transmission, 0.0)?,
             diffuse_transmission: diffuse_transmission.unwrap_or(ColorInput::grey(0.0)),
             diffuse_transmission_color: diffuse_transmission_color.unwrap_or(ColorInput::grey(1.0)),
+            subsurface,
             thin: self.thin.as_ref().is_some_and(|thin| thin.value),
             attenuation: attenuation
                 .map(|(color, distance)| Attenuation { color: color.value.0, distance: distance.value.0 })
@@ -181,13 +200,23 @@ impl MaterialKeys for Keys {
             + &line("ior", &number(principled.ior))
             + &writer.input("specular", &principled.specular)
             + &writer.input("specular_color", &principled.specular_color)
-            + &writer.input("transmission", &principled.transmission)
+            + &if principled.subsurface.is_some() {
+                String::new()
+            } else {
+                writer.input("transmission", &principled.transmission)
+            }
             + &flag("thin", principled.thin)
             + &writer.input("clearcoat", &principled.clearcoat)
             + &writer.input("clearcoat_roughness", &principled.clearcoat_roughness);
         if let Some(CoatNormalMap { texture, scale }) = principled.coat_normal_map {
             out += &line("coat_normal_map", &writer.textures.quoted(texture));
             out += &line("coat_normal_scale", &number(scale));
+        }
+        if let Some(Subsurface { weight, color, radius, anisotropy }) = principled.subsurface {
+            out += &writer.input("subsurface", &weight);
+            out += &line("subsurface_color", &writer::colour(color));
+            out += &line("subsurface_radius", &writer::colour(radius));
+            out += &line("subsurface_anisotropy", &number(anisotropy));
         }
         if principled.diffuse_transmission != ColorInput::grey(0.0) {
             out += &writer.input("diffuse_transmission", &principled.diffuse_transmission);
@@ -227,10 +256,32 @@ impl Keys {
         {
             return Err(resolver.error(&attenuation.place, "a `thin` wall encloses nothing that could take light"));
         }
+        if let Some(subsurface) = &self.subsurface {
+            let others = [
+                (self.transmission.is_some(), "transmission"),
+                (self.diffuse_transmission.is_some(), "diffuse_transmission"),
+                (self.attenuation_color.is_some(), "attenuation_color"),
+                (self.thin.as_ref().is_some_and(|thin| thin.value), "thin"),
+            ];
+            if let Some((_, other)) = others.into_iter().find(|(is_there, _)| *is_there) {
+                let message =
+                    format!("a material has `subsurface` or `{other}`, not both: both say what becomes of light that goes in");
+                return Err(resolver.error(&subsurface.place, message));
+            }
+        }
         let lets_light_in = self.transmission.is_some() || self.diffuse_transmission.is_some();
         let rows = [
             (span(&self.anisotropy_rotation), "anisotropy_rotation", self.anisotropy.is_some(), "anisotropy"),
             (span(&self.anisotropy_direction), "anisotropy_direction", self.anisotropy.is_some(), "anisotropy"),
+            (span(&self.subsurface_color), "subsurface_color", self.subsurface.is_some(), "subsurface"),
+            (span(&self.subsurface_radius), "subsurface_radius", self.subsurface.is_some(), "subsurface"),
+            (span(&self.subsurface_anisotropy), "subsurface_anisotropy", self.subsurface.is_some(), "subsurface"),
+            (
+                self.subsurface.as_ref().map(|written| written.place.clone()),
+                "subsurface",
+                self.subsurface_radius.is_some(),
+                "subsurface_radius",
+            ),
             (span(&self.thin), "thin", self.transmission.is_some(), "transmission"),
             (span(&self.clearcoat_roughness), "clearcoat_roughness", self.clearcoat.is_some(), "clearcoat"),
             (span(&self.coat_normal_map), "coat_normal_map", self.clearcoat.is_some(), "clearcoat"),
@@ -253,6 +304,24 @@ impl Keys {
             Some((span, name, needed)) => Err(resolver.error(&span, format!("`{name}` needs the key `{needed}`"))),
             None => Ok(()),
         }
+    }
+
+    /// What is below the surface.
+    fn subsurface(&self, resolver: &Resolver<'_>) -> Result<Option<Subsurface>, SceneError> {
+        let (Some(weight), Some(radius)) = (&self.subsurface, &self.subsurface_radius) else { return Ok(None) };
+        let color = match (&self.subsurface_color, resolver.colour_or_white(&self.base_color)?) {
+            (Some(color), _) => color.value.0,
+            (None, ColorInput::Constant(color)) => color,
+            (None, _) => {
+                let message =
+                    "`subsurface` needs the key `subsurface_color` where `base_color` is a texture: a body has one colour";
+                return Err(resolver.error(&weight.place, message));
+            }
+        };
+        let weight = resolver.scalar(&weight.value)?;
+        let anisotropy = self.subsurface_anisotropy.as_ref().map_or(0.0, |written| written.value.0);
+        let is_some = weight != ColorInput::grey(0.0);
+        Ok(is_some.then_some(Subsurface { weight, color, radius: radius.value.0, anisotropy }))
     }
 }
 

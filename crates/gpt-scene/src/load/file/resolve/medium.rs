@@ -29,6 +29,9 @@ impl Resolver<'_> {
             MaterialKind::Principled(principled) if principled.thin => {
                 return error("a `thin` wall encloses nothing, so it has no `interior`");
             }
+            MaterialKind::Principled(principled) if principled.subsurface.is_some() => {
+                return error("a material has `interior` or `subsurface`, not both: both say what its body does to light");
+            }
             MaterialKind::Principled(principled) if principled.attenuation.is_some() => {
                 return error(
                     "a material has `interior` or `attenuation_color`, not both: both say what its body takes of light",

@@ -41,6 +41,7 @@ impl Resolver<'_> {
             transmission: ColorInput::grey(if opacity < 1.0 && is_glass(written) { 1.0 - opacity } else { 0.0 }),
             diffuse_transmission: ColorInput::grey(0.0),
             diffuse_transmission_color: ColorInput::grey(1.0),
+            subsurface: None,
             thin: false,
             attenuation: None,
             sheen_roughness: ColorInput::grey(if sheen == ColorInput::grey(0.0) { 0.0 } else { SHEEN_ROUGHNESS }),
