@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the scenes that light sampling and indirect light are judged by, from parameters; needs Python 3.11 and nothing beyond it.
+"""Makes the scenes that light sampling and indirect light are judged by, and scenes of media, from parameters; needs Python 3.11 and nothing beyond it.
 
   benches/scenes/make.py [NAME…] [--out FOLDER]     all, or those named, into FOLDER [target/scenes]
 
@@ -7,16 +7,22 @@
   interior      a furnished room of some 70,000 triangles, textured, lit through a window and by lamps behind shades
   ajar          a room that light reaches through a door ajar alone (after Veach)
   sponza-like   a colonnade of two floors round a court, some 80,000 triangles and 10 textures, under sky, sun and one small lamp
+  foggy-room    a room full of fog, with two lamps and a shaft of light
+  cloud         a cloud of 128³ voxels under sun and sky
+  milk          a glass of milk, and a candle
+  prism         a beam of light that a prism spreads into its colours
   canopy        a tree whose 6,000 leaves are cut out of squares by a picture, under a sky with a hazy sun
 
 Scene files, meshes and textures are the same from run to run.
 """
 
+import functools
 import math
 import pathlib
 import random
 import sys
 
+import media
 from meshes import Mesh, grain, mottled, stripes, write_png, write_sky
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -44,6 +50,9 @@ class Scene:
                 value = f'"{value}"'
             lines.append(f"{key} = {value}")
         self.text.append("\n".join(lines) + "\n")
+
+    def around_camera(self, medium):
+        self.text[2] += f'medium = "{medium}"\n'
 
     def diffuse(self, name, colour):
         self.add("material", name=name, type="diffuse", reflectance=colour)
@@ -440,6 +449,7 @@ def canopy(folder):
 
 
 ALL = {"lamps": lamps, "interior": interior, "ajar": ajar, "sponza-like": sponza_like, "canopy": canopy}
+ALL |= {name: functools.partial(make, Scene) for name, make in media.ALL.items()}
 
 
 def main(arguments):

@@ -306,7 +306,7 @@ impl Keys {
         }
     }
 
-    /// What is below the surface.
+    /// The body below the surface.
     fn subsurface(&self, resolver: &Resolver<'_>) -> Result<Option<Subsurface>, SceneError> {
         let (Some(weight), Some(radius)) = (&self.subsurface, &self.subsurface_radius) else { return Ok(None) };
         let color = match (&self.subsurface_color, resolver.colour_or_white(&self.base_color)?) {
