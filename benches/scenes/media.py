@@ -122,11 +122,12 @@ def milk(scene_of, folder):
     scene.add("material", name="wax", type="rough_glass", ior=1.4, roughness=0.5, interior="wax")
     scene.diffuse("table", (0.3, 0.2, 0.13))
     scene.diffuse("wall", (0.5, 0.5, 0.52))
-    scene.emissive("flame", (60, 34, 10))
+    scene.emissive("flame", (40, 22, 7))
     scene.emissive("window", (5, 5.5, 6))
     scene.rectangle("table", (-2, 0, 2), (4, 0, 0), (0, 0, -4))
     scene.rectangle("wall", (-2, 0, -1), (4, 0, 0), (0, 2, 0))
-    scene.rectangle("window", (-1.2, 1.4, 1.2), (0, 0, -1), (0.5, 0.6, 0))
+    scene.rectangle("window", (-1.6, 0.2, -0.9), (0, 1.4, 0), (0, 0, 2))
+    scene.add("light", type="environment", radiance=(0.3, 0.35, 0.45))
     glass, inside, candle = Mesh(), Mesh(), Mesh()
     tip = 0
     # From the middle of the foot outward, up the wall, and down within.
@@ -136,7 +137,7 @@ def milk(scene_of, folder):
     candle.lathe((0.22, 0.001, 0.05), [(tip, 0), (0.09, 0), (0.09, 0.22), (0.07, 0.25), (tip, 0.24)], 64)
     for name, mesh in (("glass", glass), ("milk", inside), ("wax", candle)):
         scene.mesh(name, mesh, name)
-    scene.add("shape", type="sphere", center=(0.22, 0.3, 0.05), radius=0.02, material="flame")
+    scene.add("shape", type="sphere", center=(0.22, 0.3, 0.05), radius=0.03, material="flame")
     scene.write()
 
 
@@ -145,12 +146,13 @@ def prism(scene_of, folder):
     scene.add("material", name="prism", type="glass", ior=1.6, abbe_number=20)
     scene.diffuse("paper", (0.8, 0.8, 0.8))
     scene.diffuse("black", (0.02, 0.02, 0.02))
-    scene.emissive("slit", (400, 400, 400))
+    scene.emissive("slit", (120, 120, 120))
+    scene.add("light", type="environment", radiance=(0.02, 0.02, 0.02))
     scene.rectangle("paper", (-2, 0, 2), (4, 0, 0), (0, 0, -4))
-    scene.rectangle("slit", (-1.3, 0.05, 0.31), (0, 0, 0.04), (0, 0.3, 0))
+    scene.rectangle("slit", (-1.3, 0.02, 0.29), (0, 0.45, 0), (0, 0, 0.08))
     # Two walls that let a narrow beam pass.
-    scene.add("shape", type="box", min=(-0.9, 0, -1), max=(-0.86, 0.5, 0.3), material="black")
-    scene.add("shape", type="box", min=(-0.9, 0, 0.36), max=(-0.86, 0.5, 1.2), material="black")
+    scene.add("shape", type="box", min=(-0.9, 0, -1), max=(-0.86, 0.5, 0.28), material="black")
+    scene.add("shape", type="box", min=(-0.9, 0, 0.38), max=(-0.86, 0.5, 1.2), material="black")
     body = Mesh()
     corners = [(0.32 * math.cos(angle), 0.32 * math.sin(angle) + 0.25) for angle in (math.pi / 2, math.pi * 7 / 6, math.pi * 11 / 6)]
     low, high = 0.002, 0.45

@@ -6,7 +6,7 @@ pub const ENOUGH: [&str; 4] = ["examples", "terrace", "bazaar", "arbour"];
 
 /// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
 /// `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 37] = [
+pub const ELSEWHERE: [&str; 36] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
@@ -34,7 +34,6 @@ pub const ELSEWHERE: [&str; 37] = [
     "PIXEL_HASHED",
     "PIXEL_ROTATION",
     "PORTALS",
-    "SCATTERING",
     "SECOND_UVS",
     "SPHERE_LIGHTS_BY_PICTURE",
     "SPHERE_LIGHTS_BY_POINT",

@@ -49,6 +49,50 @@ fn validate_all(switches: &Switches) -> Result<(), (String, ComposeError)> {
     Ok(())
 }
 
+/// Names that the files of a folder declare at their top level.
+fn declared_in(folder: &str) -> BTreeSet<String> {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders").join(folder);
+    let files = std::fs::read_dir(root).expect("the folder is there").map(|entry| entry.expect("it can be read").path());
+    let declares = |line: &str| {
+        let rest = ["fn ", "struct ", "alias ", "const "].into_iter().find_map(|keyword| line.strip_prefix(keyword))?;
+        rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().map(str::to_owned)
+    };
+    let names = files.flat_map(|file| {
+        let text = std::fs::read_to_string(file).expect("a file of WGSL");
+        text.lines().filter_map(declares).collect::<Vec<_>>()
+    });
+    names.collect()
+}
+
+/// Every stage by a set of switches, without comments.
+fn kernels(enabled: &BTreeSet<&'static str>) -> String {
+    let switches = shippable(enabled);
+    let runs = |file: &str| file != "stages/fused_lanes.wgsl" || switches.enabled.contains("PACKETS");
+    let stages = STAGES.iter().filter(|stage| runs(stage.file));
+    let texts = stages.map(|Stage { file, .. }| compose(file, &switches).expect("it composes").source);
+    let lines = |text: String| text.lines().map(|line| line.split("//").next().unwrap_or("").to_owned()).collect::<Vec<_>>();
+    texts.flat_map(lines).collect::<Vec<_>>().join("\n")
+}
+
+/// A scene without media compiles nothing of them, and one whose media are homogeneous nothing of grids.
+#[test]
+fn kernels_hold_nothing_of_media_that_are_not_there() {
+    let of_media = ["MEDIA", "MEDIUM_EMISSION", "MEDIUM_GRIDS", "SCATTERING", "OPEN_BOUNDARIES", "BY_ANGLE", "BY_DISTANCE"];
+    let names = declared_in("shading/medium");
+    let with = |switches: &[&'static str]| {
+        let text = kernels(&switches.iter().copied().chain(["LIGHTS", "BLENDS", "NULL_SURFACES"]).collect());
+        let words: BTreeSet<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+        names.iter().filter(|name| words.contains(name.as_str())).cloned().collect::<Vec<_>>()
+    };
+    assert_eq!(with(&[]), [""; 0]);
+    assert!(with(&["MEDIA"]).contains(&"medium_transmittance".to_owned()));
+    let homogeneous = with(&["MEDIA", "SCATTERING", "OPEN_BOUNDARIES"]);
+    let of_grids = declared_in("shading/medium").into_iter().filter(|name| name.contains("olume") || name.contains("voxel"));
+    let of_grids: Vec<_> = of_grids.collect();
+    assert!(of_grids.len() > 10 && of_grids.iter().all(|name| !homogeneous.contains(name)), "{homogeneous:?}");
+    assert!(of_grids.iter().any(|name| with(&of_media[..5]).contains(name)));
+}
+
 fn all_names() -> BTreeSet<&'static str> {
     SWITCHES.iter().map(|row| row.name).collect()
 }

@@ -13,6 +13,8 @@
 #import shading/path/layer.wgsl
 #import shading/light/light_sample.wgsl
 #import shading/path/mis.wgsl
+#import shading/medium/medium.wgsl
+#import shading/medium/stack.wgsl
 #import shading/light/outside.wgsl
 #export shading/path/record.wgsl
 #import shading/path/planted.wgsl
@@ -104,8 +106,11 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
         }
     }
     var radiance = path.throughput * value.value * light.radiance * planted_factor(surface.material);
-    let media = media_around(path, surface, light.wi);
-    radiance *= shadow_medium_transmittance(media, light.distance);
+    if HAS_MEDIA && !HAS_OPEN_BOUNDARIES {
+        // No boundary lets a shadow ray through, so it stays in the medium where it begins.
+        let media = media_towards(surface, light.wi, path.media);
+        radiance *= medium_transmittance(innermost(media), light.distance);
+    }
     let count = f32(light_samples_at(depth));
     // Several samples are as dense together as one of as many times its density.
     let pdf_light = count * light.pdf_solid_angle;
@@ -121,7 +126,15 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
     }
     let chosen = traced_light(sampled_from, facing_of(surface), light_bits.x);
     trace_light(light.wi, pdf_light, radiance, weight, chosen, value.pdf_solid_angle);
-    return ShadowRay(ray, ray_length, in_layer(radiance, depth + 1u), media, passage_key(light_bits));
+    var shadow: ShadowRay;
+    shadow.ray = ray;
+    shadow.distance = ray_length;
+    shadow.radiance = in_layer(radiance, depth + 1u);
+    if HAS_OPEN_BOUNDARIES {
+        shadow.media = media_towards(surface, light.wi, path.media);
+        shadow.key = passage_key(light_bits);
+    }
+    return shadow;
 }
 
 // The shadow ray of light sample `number`, not the first, of a vertex that takes more.
@@ -135,12 +148,10 @@ fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
 
 #if !LAYER_OF_SURFACES
 // The end of a path that leaves the scene.
-fn shading_outside(path: Path, arrival: Arrival, depth: u32) -> Shading {
-    var outside = path;
-    outside.throughput = arrival.throughput;
-    trace_arrival(outside.ray.direction, outside.pdf_solid_angle, outside.throughput, NONE);
+fn shading_outside(path: Path, depth: u32) -> Shading {
+    trace_arrival(path.ray.direction, path.pdf_solid_angle, path.throughput, NONE);
     var shading = no_shading();
-    shading.radiance = in_layer(arrival.radiance, depth) + escaped_radiance(outside, depth);
+    shading.radiance = escaped_radiance(path, depth);
     return shading;
 }
 
@@ -150,27 +161,33 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     let depth = depth_at(incoming, vertex);
     let wo = -incoming.ray.direction;
     let has_left = hit.primitive == NONE;
-    if has_left && !HAS_SCATTERING {
-        return shading_outside(incoming, arrive(incoming, INFINITY_DISTANCE, vertex), depth);
-    }
-    var surface: Surface;
-    // A hit in an instance may come without its distance.
-    var ray_length = INFINITY_DISTANCE;
-    if !HAS_SCATTERING || !has_left {
-        surface = hit_surface(incoming.ray, hit);
-        ray_length = distance(surface.position, incoming.ray.origin);
-    }
-    let arrival = arrive(incoming, ray_length, vertex);
-    // Not 0 where a medium scatters the path before it comes to the end of its ray.
-    let phase = arrival.phase;
-    if HAS_SCATTERING && phase != 0u {
-        surface = medium_surface(incoming.ray, arrival.distance);
-    } else if HAS_SCATTERING && has_left {
-        return shading_outside(incoming, arrival, depth);
-    }
-    incoming.throughput = arrival.throughput;
     var shading = no_shading();
-    shading.radiance = in_layer(arrival.radiance, depth);
+    var surface: Surface;
+    // Not 0 where a medium scatters the path before it comes to the end of its ray.
+    var phase = 0u;
+    if HAS_MEDIA {
+        // A hit in an instance may come without its distance.
+        var ray_length = INFINITY_DISTANCE;
+        if !has_left {
+            surface = hit_surface(incoming.ray, hit);
+            ray_length = distance(surface.position, incoming.ray.origin);
+        }
+        let arrival = arrive(incoming, ray_length, vertex);
+        incoming.throughput = arrival.throughput;
+        shading.radiance = in_layer(arrival.radiance, depth);
+        phase = arrival.phase;
+        if phase != 0u {
+            surface = medium_surface(incoming.ray, arrival.distance);
+        } else if has_left {
+            shading.radiance += shading_outside(incoming, depth).radiance;
+            return shading;
+        }
+    } else {
+        if has_left {
+            return shading_outside(incoming, depth);
+        }
+        surface = hit_surface(incoming.ray, hit);
+    }
     if HAS_WEIGHTS_BY_VIEWER {
         surface.by_camera = depth == 1u;
     }

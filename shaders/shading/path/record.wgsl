@@ -24,8 +24,10 @@ struct Path {
     lit_facing: u32,
     // With TRANSPARENT_SHADOWS, the origin of the ray that went on through the null surfaces last met: light was sampled from there.
     lit_from: vec3<f32>,
-    // With MEDIA, the media around the ray.
+#if MEDIA
+    // The media around the ray.
     media: MediumStack,
+#endif
 }
 
 struct ShadowRay {
@@ -33,10 +35,12 @@ struct ShadowRay {
     distance: f32,
     // The radiance that the path gains if nothing is in the way; all 0: there is no shadow ray.
     radiance: Spectrum,
-    // With OPEN_BOUNDARIES, the media around its origin.
+#if OPEN_BOUNDARIES
+    // The media around its origin.
     media: MediumStack,
     // With MEDIUM_GRIDS, the key of the random numbers by which they are passed.
     key: u32,
+#endif
 }
 
 // The start of light samples of a vertex.
@@ -105,7 +109,9 @@ fn facing_of_lit_vertex(path: Path) -> u32 {
 }
 
 fn no_shadow_ray() -> ShadowRay {
-    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, BLACK, MediumStack(0u), 0u);
+    var none: ShadowRay;
+    none.ray.direction = vec3<f32>(0.0, 0.0, 1.0);
+    return none;
 }
 
 // True where the path may gain anything from the shadow ray.
@@ -135,25 +141,6 @@ fn arriving_throughput(path: Path, ray_length: f32) -> Spectrum {
         return path.throughput * medium_transmittance(innermost(path.media), ray_length);
     } else {
         return path.throughput;
-    }
-}
-
-// The media around rays that leave a place of the path towards a direction.
-fn media_around(path: Path, surface: Surface, wi: vec3<f32>) -> MediumStack {
-    if HAS_MEDIA {
-        return media_towards(surface, wi, path.media);
-    } else {
-        return MediumStack(0u);
-    }
-}
-
-// The share of light that is left of what a light sends along a shadow ray that begins within these media. It is 1 where boundaries of media are
-// crossed on the way: the shadow ray itself finds it then. Elsewhere no boundary lets a shadow ray through, so it stays in the medium where it begins.
-fn shadow_medium_transmittance(media: MediumStack, ray_length: f32) -> Spectrum {
-    if HAS_MEDIA && !HAS_OPEN_BOUNDARIES {
-        return medium_transmittance(innermost(media), ray_length);
-    } else {
-        return WHITE;
     }
 }
 
