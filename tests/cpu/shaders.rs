@@ -69,7 +69,7 @@ fn kernels(enabled: &BTreeSet<&'static str>) -> String {
     let switches = shippable(enabled);
     let runs = |file: &str| file != "stages/fused_lanes.wgsl" || switches.enabled.contains("PACKETS");
     let stages = STAGES.iter().filter(|stage| runs(stage.file));
-    let texts = stages.map(|Stage { file, .. }| compose(file, &switches).expect("it composes").source);
+    let texts = stages.map(|Stage { file, .. }| compose(file, &switches).expect("it composes").text);
     let lines = |text: String| text.lines().map(|line| line.split("//").next().unwrap_or("").to_owned()).collect::<Vec<_>>();
     texts.flat_map(lines).collect::<Vec<_>>().join("\n")
 }
