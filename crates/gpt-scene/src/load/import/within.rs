@@ -203,7 +203,8 @@ mod tests {
             [[medium]]\nname = \"milk\"\nalbedo = 0.5\nmean_free_path = 4\n\
             [[material]]\nname = \"skin\"\ntype = \"pass\"\ninterior = \"milk\"\n";
         let file = Document::new("a.toml", text).read_whole().expect("a scene");
-        let mut description = Description { file, ..Description::default() };
+        let mut description = Description::default();
+        description.file = file;
         description.transform_by(&DAffine3::from_scale(DVec3::splat(2.0)), &(0..1).into()).expect("it is in range");
         description.prefix_names("a/");
         let file = &mut description.file;

@@ -1,0 +1,184 @@
+//! Participating media: what fills shapes and the space around the sensor.
+//!
+//! - `homogeneous`, here: how dense a medium is.
+//! - `phase`: its phase function.
+//! - `boundary`: where it is, `interior` and `exterior` of shapes.
+//! - `presets`: media by name, as versions before 2 had them.
+
+mod boundary;
+mod phase;
+mod presets;
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use self::boundary::Boundary;
+use super::converter::Converter;
+use super::plugin::Plugin;
+use crate::load::error::SceneError;
+use crate::load::file::colour::Rgb;
+use crate::load::file::medium::MediumEntry;
+use crate::load::file::value::{Located, NonNegative};
+use crate::load::import::Input;
+use crate::spectrum::Spectrum;
+
+/// Integrators that render media; the others go through them as if they were empty.
+const VOLUMETRIC: [&str; 11] = [
+    "volpath",
+    "volpathmis",
+    "prbvolpath",
+    "volpath_simple",
+    "bdpt",
+    "mlt",
+    "pssmlt",
+    "erpt",
+    "photonmapper",
+    "ptracer",
+    "volprim_rf_basic",
+];
+/// Integrators around others.
+const AROUND: [&str; 5] = ["aov", "moment", "stokes", "multichannel", "adaptive"];
+
+/// Media that were met so far.
+#[derive(Default)]
+pub struct Media {
+    /// Their names, by their plugins.
+    names: HashMap<*const Plugin, String>,
+    /// The one that the sensor is within.
+    around_sensor: Option<Rc<Plugin>>,
+    /// How reports call the integrator, if that does not render media.
+    blind: Option<String>,
+    boundaries: Vec<Boundary>,
+    /// Materials that enclose a medium, by the names of the material without it and of the medium.
+    filled: HashMap<(String, String), String>,
+    /// Materials that light gets into and is bent by, by their names.
+    bodies: HashMap<String, bool>,
+    /// The name of a medium that neither takes nor gives.
+    clear: Option<String>,
+}
+
+impl Media {
+    /// Notes whether media are rendered.
+    pub fn note_integrator(&mut self, plugin: &Plugin) {
+        if !AROUND.contains(&plugin.name.as_str()) {
+            self.blind = (!VOLUMETRIC.contains(&plugin.name.as_str())).then(|| plugin.title());
+        }
+    }
+}
+
+impl Converter<'_> {
+    /// Reports that media of a plugin are left out. Whether they are.
+    fn leaves_media_out(&mut self, plugin: &Plugin) -> bool {
+        let Some(integrator) = self.media.blind.clone() else { return false };
+        let what = format!("medium beside {integrator}");
+        self.drop(
+            plugin,
+            &what,
+            "it is left out, as there: that integrator goes through media as if they were empty; volpath does not",
+        );
+        true
+    }
+
+    /// The medium that a sensor is within.
+    pub fn medium_around(&mut self, sensor: &Rc<Plugin>) -> Result<Option<Located<String>>, SceneError> {
+        let Some(medium) = sensor.first_of("medium").cloned() else { return Ok(None) };
+        if self.leaves_media_out(sensor) {
+            return Ok(None);
+        }
+        let name = self.medium(&medium)?;
+        let place = medium.at();
+        self.media.around_sensor = Some(medium);
+        Ok(Some(place.at(name)))
+    }
+
+    /// The name of a medium, which is made once.
+    fn medium(&mut self, plugin: &Rc<Plugin>) -> Result<String, SceneError> {
+        if let Some(known) = self.media.names.get(&Rc::as_ptr(plugin)) {
+            return Ok(known.clone());
+        }
+        plugin.visited.set(true);
+        // They say how it is sampled, not what it is.
+        plugin.without_effect(&["id", "sample_emitters", "has_spectral_extinction", "method", "strategy", "sampling_weight"]);
+        let mut entry = match plugin.name.as_str() {
+            "homogeneous" => MediumEntry { phase: self.phase_of(plugin)?, ..self.homogeneous(plugin)? },
+            other => {
+                let what = format!("medium `{other}`");
+                plugin.properties.iter().for_each(|property| property.used.set(true));
+                plugin.children.iter().for_each(|child| child.used.set(true));
+                self.drop(plugin, &what, "it takes and gives no light");
+                MediumEntry::default()
+            }
+        };
+        let wanted = if plugin.id.is_empty() { plugin.name.clone() } else { plugin.id.clone() };
+        let name = self.scene.free_medium_name(&wanted);
+        entry.name = plugin.at().at(name.clone());
+        self.scene.file.medium.push(entry);
+        self.media.names.insert(Rc::as_ptr(plugin), name.clone());
+        Ok(name)
+    }
+
+    /// The name of a medium that neither takes nor gives.
+    fn clear_medium(&mut self, plugin: &Plugin) -> String {
+        if let Some(known) = &self.media.clear {
+            return known.clone();
+        }
+        let name = self.scene.free_medium_name("(empty)");
+        self.scene.file.medium.push(MediumEntry { name: plugin.at().at(name.clone()), ..MediumEntry::default() });
+        self.media.clear = Some(name.clone());
+        name
+    }
+
+    /// A medium that is the same everywhere: by what is scattered and absorbed, or by what is lost and the share of it that is scattered.
+    fn homogeneous(&mut self, plugin: &Rc<Plugin>) -> Result<MediumEntry, SceneError> {
+        let scale = self.plain_number(plugin, "scale", 1.0)?;
+        let [absorption, scattering] = self.coefficients(plugin)?.map(|value| value * scale);
+        let value = |value: Spectrum| -> Result<Option<Located<Rgb<NonNegative>>>, SceneError> {
+            Ok(Some(plugin.at().at(plugin.possible(Rgb::of(value))?)))
+        };
+        Ok(MediumEntry { absorption: value(absorption)?, scattering: value(scattering)?, ..MediumEntry::default() })
+    }
+
+    /// What is absorbed and what is scattered, per unit length, before the plugin's `scale`.
+    fn coefficients(&mut self, plugin: &Rc<Plugin>) -> Result<[Spectrum; 2], SceneError> {
+        if let Some(name) = plugin.text("material")? {
+            return match presets::coefficients(name) {
+                // They are given per millimetre.
+                Some(coefficients) => Ok(coefficients),
+                None => Err(plugin
+                    .error(format!("nothing is known of the medium `{name}`"))
+                    .with_help(format!("there are {}", presets::names().join(", ")))),
+            };
+        }
+        if plugin.has("sigma_s") || plugin.has("sigma_a") {
+            let absorption = self.volume_mean(plugin, "sigma_a", 0.0)?;
+            return Ok([absorption, self.volume_mean(plugin, "sigma_s", 0.0)?]);
+        }
+        let extinction = self.volume_mean(plugin, "sigma_t", 1.0)?;
+        let albedo = self.volume_mean(plugin, "albedo", 0.75)?;
+        if albedo.max_component() > 1.0 + 1e-6 {
+            self.approximate(plugin, "albedo of a medium above 1", "1 is taken, since more would make energy");
+        }
+        let scattering = extinction * albedo.clamp(Spectrum::BLACK, Spectrum::WHITE);
+        Ok([extinction - scattering, scattering])
+    }
+
+    /// A parameter that may be a volume.
+    fn volume_mean(&mut self, plugin: &Rc<Plugin>, name: &str, default: f64) -> Result<Spectrum, SceneError> {
+        let Some(volume) = plugin.child(name).filter(|child| child.kind == "volume").cloned() else {
+            let input = self.surface_number(plugin, name, default)?;
+            return Ok(self.constant_of(plugin, name, input));
+        };
+        volume.visited.set(true);
+        volume.without_effect(&["to_world"]);
+        let input = self.surface_number(&volume, "value", 1.0)?;
+        Ok(self.constant_of(&volume, "value", input))
+    }
+
+    fn constant_of(&mut self, plugin: &Plugin, name: &str, input: Input) -> Spectrum {
+        if input.constant().is_none() {
+            let what = format!("texture of `{name}` of {}", plugin.title());
+            self.approximate(plugin, &what, "its mean is taken");
+        }
+        self.mean(&input)
+    }
+}
