@@ -8,7 +8,7 @@ import re
 
 from programs import ROOT
 
-IMPORTER = ROOT / "src" / "load" / "mitsuba"
+IMPORTER = ROOT / "crates" / "gpt-scene" / "src" / "load" / "mitsuba"
 # Calls whose first argument is a key of gpt's own scene files.
 _OWN_KEYS = r"(?:with|with_some|set|of_type|keys\.get|keys\.text|entry\.keys\.get|\bget|child_key)\(\s*$"
 _WORD = re.compile(r'"([A-Za-z][A-Za-z0-9_.\-]*)"')

@@ -3,6 +3,7 @@
 use glam::{DAffine3, DVec3};
 
 use super::description::{Description, map_of};
+use super::maps::is_uniform;
 use crate::load::file::light::LightEntry;
 use crate::load::file::node::NodeEntry;
 use crate::load::file::shape::{ShapeEntry, TransformEntry};
@@ -22,6 +23,14 @@ impl Description {
         }
         self.transform_nodes(map, place)?;
         self.scale_media(map.matrix3.determinant().abs().cbrt())?;
+        if !self.file.medium.is_empty() && !is_uniform(map) {
+            let instead = "they are as dense as under an even scale of the same volume";
+            self.report.approximate(
+                "media of an import that is scaled unevenly",
+                self.file.medium[0].name.place.to_string(),
+                instead,
+            );
+        }
         if let Some(camera) = &mut self.file.camera {
             move_point(map, &mut camera.position)?;
             move_point(map, &mut camera.look_at.value)?;

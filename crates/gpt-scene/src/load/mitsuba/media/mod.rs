@@ -8,6 +8,8 @@
 mod boundary;
 mod phase;
 mod presets;
+#[cfg(test)]
+mod tests;
 
 use std::collections::HashMap;
 use std::rc::Rc;
