@@ -28,7 +28,9 @@ def ref(id, name=None):
 
 
 def tracer(depth=DEPTH, type_="volpathmis", *more):
-    return plugin("integrator", type_, integer("max_depth", depth), *more)
+    """Without roulette, which takes light away there, unless one is given."""
+    roulette = "" if any("rr_depth" in one for one in more) else integer("rr_depth", 1000)
+    return plugin("integrator", type_, integer("max_depth", depth), roulette, *more)
 
 
 def filled(*of_shape, integrator=None, radius=1.2, more=""):
@@ -41,7 +43,7 @@ def fog(*of_medium, type_="homogeneous", things="", depth=DEPTH):
     """A medium around the sensor, with a wall that a point light shines on."""
     wall = shape("rectangle", transform(scale(3), translate(0, 0, -1.5)), bsdf("twosided", diffuse(0.6, 0.5, 0.4)))
     eye = sensor(number("fov", 40), transform(element("lookat", origin="0, 0, 4", target="0, 0, 0", up="0, 1, 0")), medium(*of_medium, name=None, type_=type_, id="fog"))
-    lamp = plugin("emitter", "point", point("position", 0.7, 0.8, 1), rgb("intensity", 6, 5, 4))
+    lamp = plugin("emitter", "point", point("position", 2.5, 2.2, 2.5), rgb("intensity", 24, 20, 16))
     return scene(tracer(depth), eye, wall, things, lamp)
 
 

@@ -32,5 +32,11 @@ PLANTED = [
     ("shape rectangle: to_world: uneven scale", 'x="1.2" y="0.6"', 'x="1.2" y="0.65"'),
     ("shape ply: flip_tex_coords: true", 'name="flip_tex_coords" value="true"', 'name="flip_tex_coords" value="false"'),
     ("shape obj: face_normals: true", 'name="face_normals" value="true"', 'name="face_normals" value="false"'),
+    ("medium homogeneous: sigma_t: float", 'name="sigma_t" value="0.4"', 'name="sigma_t" value="0.45"'),
+    ("medium homogeneous: albedo: float", 'name="albedo" value="0.4"', 'name="albedo" value="0.45"'),
+    ("medium homogeneous: scale: 3", 'name="scale" value="3"', 'name="scale" value="3.4"'),
+    ("phase hg: g: -0.6", 'name="g" value="-0.6"', 'name="g" value="-0.5"'),
+    ("phase blendphase: weight: 0.2", 'name="weight" value="0.2"', 'name="weight" value="0.3"'),
+    ("medium homogeneous: interior: dielectric", '<float name="g" value="0.4"/>', '<float name="g" value="-0.4"/>'),
     ("integrator path: max_depth: 3", 'name="max_depth" value="3"', 'name="max_depth" value="4"'),
 ]

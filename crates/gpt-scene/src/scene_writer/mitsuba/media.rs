@@ -45,13 +45,6 @@ impl Writer<'_> {
         self.original.camera_medium.is_some() || self.original.materials.iter().any(is_filled)
     }
 
-    /// Whether some channel is lost faster than others.
-    pub fn has_coloured_media(&self) -> bool {
-        let attenuations = self.original.materials.iter().filter_map(|material| absorbs(&material.kind));
-        let mut extinctions = self.original.media.iter().map(Medium::extinction).chain(attenuations);
-        extinctions.any(|extinction| extinction.min_component() != extinction.max_component())
-    }
-
     /// Writes all media, those of bodies that absorb too.
     pub fn media(&mut self) {
         let tables = entries(self.scene, "medium");

@@ -106,12 +106,8 @@ impl Writer<'_> {
         }
         let depth = render.and_then(|render| integer(render, "max_depth")).unwrap_or(16);
         let roulette = render.and_then(|render| integer(render, "roulette_depth")).unwrap_or(5);
-        // Colours that are lost at different rates are noisy by volpath.
-        let kind = match (self.has_media(), self.has_coloured_media()) {
-            (false, _) => "path",
-            (true, false) => "volpath",
-            (true, true) => "volpathmis",
-        };
+        // The roulette of volpathmis takes light away in version 3.9.1.
+        let kind = if self.has_media() { "volpath" } else { "path" };
         let integrator = Element::new("integrator", kind)
             .integer("max_depth", if depth == 0 { -1 } else { depth })
             .integer("rr_depth", if roulette == 0 { 1_000_000 } else { roulette });

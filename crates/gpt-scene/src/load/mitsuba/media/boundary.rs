@@ -10,7 +10,8 @@ use glam::DVec3;
 
 use super::Media;
 use crate::load::error::SceneError;
-use crate::load::file::material::{MaterialEntry, pass};
+use crate::load::file::material::blend_weight::{BlendWeightEntry, FresnelWeight};
+use crate::load::file::material::{MaterialEntry, blend, mirror, pass};
 use crate::load::file::shape::ShapeEntry;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
@@ -91,22 +92,21 @@ impl Converter<'_> {
     ) -> Result<String, SceneError> {
         let Some(interior) = interior else { return Ok(material) };
         let medium = self.medium(interior)?;
-        Ok(self.filled(shape, material, medium))
+        self.filled(shape, material, medium)
     }
 
     /// A material like this one around a medium.
-    fn filled(&mut self, shape: &Plugin, material: String, medium: String) -> String {
+    fn filled(&mut self, shape: &Plugin, material: String, medium: String) -> Result<String, SceneError> {
         let key = (material, medium);
         if let Some(known) = self.media.filled.get(&key) {
-            return known.clone();
+            return Ok(known.clone());
         }
         let (material, medium) = &key;
         // What was made last is asked for first.
         let entry = self.scene.file.material.iter().rev().find(|entry| entry.name() == material.as_str());
-        let Some(mut entry) = entry.cloned() else { return material.clone() };
+        let Some(mut entry) = entry.cloned() else { return Ok(material.clone()) };
         if is_thin(&entry) {
-            self.approximate(shape, "thin wall around a medium", "the wall itself is not there");
-            entry = MaterialEntry::Pass(pass::Keys::default());
+            entry = self.thin_wall(shape, &entry)?;
         }
         let name = self.scene.free_material_name(&format!("{material}, around {medium}"));
         let common = entry.common_mut();
@@ -115,7 +115,34 @@ impl Converter<'_> {
         self.scene.file.material.push(entry);
         self.scene.material_variants.insert(name.clone(), material.clone());
         self.media.filled.insert(key, name.clone());
-        name
+        Ok(name)
+    }
+
+    /// A wall without thickness as two mirrors before each other, by each of which light passes as by a face of glass: rays go through it and shadow
+    /// rays too, into the medium and out of it.
+    fn thin_wall(&mut self, shape: &Plugin, wall: &MaterialEntry) -> Result<MaterialEntry, SceneError> {
+        let (ior, reflectance) = match wall {
+            MaterialEntry::Glass(keys) => (keys.ior.as_ref().map(|ior| ior.value), keys.reflectance.clone()),
+            _ => (None, None),
+        };
+        let instead = "it reflects as its two faces do, but for the light between them: up to 5 % too much at grazing angles; and what goes through has no tint";
+        self.approximate(shape, "thin wall around a medium", instead);
+        let place = shape.at();
+        let mut add = |wanted: &str, mut entry: MaterialEntry| {
+            let name = self.scene.free_material_name(wanted);
+            *entry.common_mut().name = place.at(name.clone());
+            self.scene.file.material.push(entry);
+            name
+        };
+        let mirror = add("face of a thin wall", MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }));
+        let nothing = add("behind a thin wall", MaterialEntry::Pass(pass::Keys::default()));
+        // The weight is what passes.
+        let over = |behind: String| {
+            let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
+            MaterialEntry::Blend(blend::Keys::of([behind, mirror.clone()], weight, &place))
+        };
+        let second = add("second face of a thin wall", over(nothing));
+        Ok(over(second))
     }
 
     /// Notes a shape that is to be added to the scene.
@@ -167,7 +194,7 @@ impl Converter<'_> {
             };
             let material = self.scene.file.shape[boundary.shape].value.common().material.cloned();
             if let Some(material) = material {
-                let filled = self.filled(&boundary.plugin, material.value, medium);
+                let filled = self.filled(&boundary.plugin, material.value, medium)?;
                 *self.scene.file.shape[boundary.shape].value.common_mut().material = Some(boundary.plugin.at().at(filled));
             }
         }

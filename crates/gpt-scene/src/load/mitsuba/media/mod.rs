@@ -3,6 +3,7 @@
 //! - `homogeneous`, here: how dense a medium is.
 //! - `phase`: its phase function.
 //! - `boundary`: where it is, `interior` and `exterior` of shapes.
+//! - `volume`: values in space, `constvolume` and `gridvolume`.
 //! - `presets`: media by name, as versions before 2 had them.
 
 mod boundary;
@@ -10,6 +11,7 @@ mod phase;
 mod presets;
 #[cfg(test)]
 mod tests;
+mod volume;
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -21,7 +23,6 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::medium::MediumEntry;
 use crate::load::file::value::{Located, NonNegative};
-use crate::load::import::Input;
 use crate::spectrum::Spectrum;
 
 /// Integrators that render media; the others go through them as if they were empty.
@@ -162,25 +163,5 @@ impl Converter<'_> {
         }
         let scattering = extinction * albedo.clamp(Spectrum::BLACK, Spectrum::WHITE);
         Ok([extinction - scattering, scattering])
-    }
-
-    /// A parameter that may be a volume.
-    fn volume_mean(&mut self, plugin: &Rc<Plugin>, name: &str, default: f64) -> Result<Spectrum, SceneError> {
-        let Some(volume) = plugin.child(name).filter(|child| child.kind == "volume").cloned() else {
-            let input = self.surface_number(plugin, name, default)?;
-            return Ok(self.constant_of(plugin, name, input));
-        };
-        volume.visited.set(true);
-        volume.without_effect(&["to_world"]);
-        let input = self.surface_number(&volume, "value", 1.0)?;
-        Ok(self.constant_of(&volume, "value", input))
-    }
-
-    fn constant_of(&mut self, plugin: &Plugin, name: &str, input: Input) -> Spectrum {
-        if input.constant().is_none() {
-            let what = format!("texture of `{name}` of {}", plugin.title());
-            self.approximate(plugin, &what, "its mean is taken");
-        }
-        self.mean(&input)
     }
 }

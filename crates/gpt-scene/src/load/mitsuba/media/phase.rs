@@ -37,7 +37,7 @@ impl Converter<'_> {
                 self.henyey_greenstein(plugin, cosine)
             }
             "blendphase" => {
-                let share = self.plain_number(plugin, "weight", 0.5)?.clamp(0.0, 1.0);
+                let share = self.volume_mean(plugin, "weight", 0.5)?.mean().clamp(0.0, 1.0);
                 self.blend(plugin, &[1.0 - share, share], depth)
             }
             "mixturephase" => {

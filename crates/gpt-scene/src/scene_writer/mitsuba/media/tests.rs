@@ -120,7 +120,7 @@ fn shapes_say_what_is_around_them() {
     assert_eq!(sides("<ref id=\"milk\"/>"), ["milk", "smoke"]);
     assert_eq!(sides("<ref id=\"smoke\"/>"), ["smoke", "fog"]);
     assert_eq!(sides("<ref id=\"glass\"/>"), ["", "fog"]);
-    assert!(text.contains("<integrator type=\"volpathmis\">"), "one of them is coloured: {text}");
+    assert!(text.contains("<integrator type=\"volpath\">"), "{text}");
     // The control: without media there are none, and no integrator for them.
     let plain = SHAPES.replace("interior = \"milk\"\n", "").replace("interior = \"smoke\"\n", "");
     let (text, ..) = round_trip(&scene(&plain));
