@@ -49,6 +49,7 @@ def fog(*of_medium, type_="homogeneous", things="", depth=DEPTH):
 
 def cases():
     yield from densities()
+    yield from grids()
     yield from phases()
     yield from boundaries()
     yield from integrators()
@@ -84,6 +85,60 @@ def densities():
     yield Case("medium", "homogeneous", "to_world of the shape", "scaled", filled(NULL, transform(scale(0.8)), medium(rgb("sigma_t", 0.9, 0.5, 0.2))), base)
     yield Case("medium", "homogeneous", "has_spectral_extinction", "false", filled(NULL, medium(element("boolean", name="has_spectral_extinction", value="false"))), None)
     yield Case("medium", "homogeneous", "sample_emitters", "false, walls of light", scene(tracer(), camera("0, 0, 4.4", fov=29), shape("sphere", NULL, medium(element("boolean", name="sample_emitters", value="false"))), light_box()), None)
+
+
+# The unit cube as a box about the origin.
+BOX = transform(translate(-0.5, -0.5, -0.5), scale(2.2, 2, 1.8))
+
+
+def grid(name, file=files.CLOUD, *more, place=BOX):
+    return volume(name, "gridvolume", string("filename", file), place, *more)
+
+
+def cloud(*of_medium, type_="heterogeneous", depth=DEPTH):
+    """A wide box that holds a medium with a grid, in the box of light, with a point light."""
+    hull = shape("cube", transform(scale(1.6)), NULL, medium(*of_medium, type_=type_))
+    return scene(tracer(depth), camera("2.4, 1.6, 3.8", fov=32), hull, light_box(), LAMP)
+
+
+def grids():
+    plain = cloud(grid("sigma_t"))
+    for type_ in ("heterogeneous",):
+        yield Case("medium", type_, "sigma_t", "grid", plain, cloud(grid("sigma_t"), number("scale", 1.3)))
+        yield Case("medium", type_, "sigma_t", "not given", cloud(), cloud(number("sigma_t", 2)))
+        yield Case("medium", type_, "sigma_t", "float", cloud(number("sigma_t", 3)), cloud())
+        yield Case("medium", type_, "sigma_t", "volume of a float, placed", cloud(volume("sigma_t", "constvolume", number("value", 2), BOX)), cloud(number("sigma_t", 2)))
+        yield Case("medium", type_, "sigma_t", "grid in colours", cloud(grid("sigma_t", files.CLOUD_TINTED)), plain)
+        for factor in (0.4, 2.5):
+            yield Case("medium", type_, "scale", f"{factor}, of a grid", cloud(grid("sigma_t"), number("scale", factor)), plain)
+        yield Case("medium", type_, "scale", "2, of a float", cloud(number("sigma_t", 1.5), number("scale", 2)), cloud(number("sigma_t", 1.5)))
+        yield Case("medium", type_, "albedo", "float", cloud(grid("sigma_t"), number("albedo", 0.3)), plain)
+        yield Case("medium", type_, "albedo", "rgb of three", cloud(grid("sigma_t"), rgb("albedo", 0.9, 0.6, 0.2)), plain)
+        yield Case("medium", type_, "albedo", "grid", cloud(grid("sigma_t"), grid("albedo", files.TINTS)), plain)
+        yield Case("medium", type_, "albedo", "grid over a float", cloud(number("sigma_t", 3), grid("albedo", files.TINTS)), cloud(number("sigma_t", 3)))
+        small = transform(scale(0.8))
+        yield Case("medium", type_, "albedo", "smaller grid", cloud(grid("sigma_t"), grid("albedo", files.TINTS, place=small)), plain)
+        yield Case("medium", type_, "phase", "hg", cloud(grid("sigma_t"), phase("hg", number("g", 0.6))), plain)
+    yield Case("medium", "homogeneous", "albedo", "grid", cloud(number("sigma_t", 1.2), grid("albedo", files.TINTS), type_="homogeneous"), cloud(number("sigma_t", 1.2), type_="homogeneous"))
+    near = string("filter_type", "nearest")
+    yield Case("volume", "gridvolume", "filter_type", "nearest", cloud(grid("sigma_t", files.CLOUD, near)), plain)
+    yield Case("volume", "gridvolume", "filter_type", "trilinear", cloud(grid("sigma_t", files.CLOUD, string("filter_type", "trilinear"))), cloud(grid("sigma_t", files.CLOUD, near)))
+    yield Case("volume", "gridvolume", "filter_type", "nearest, of an albedo", cloud(grid("sigma_t"), grid("albedo", files.TINTS, near)), plain)
+    for mode in ("clamp", "mirror", "repeat"):
+        yield Case("volume", "gridvolume", "wrap_mode", mode, cloud(grid("sigma_t", files.CLOUD, string("wrap_mode", mode))), None)
+    boxed = lambda flag: cloud(volume("sigma_t", "gridvolume", string("filename", files.CLOUD_BOXED), element("boolean", name="use_grid_bbox", value=flag)))
+    yield Case("volume", "gridvolume", "use_grid_bbox", "true", boxed("true"), boxed("false"))
+    yield Case("volume", "gridvolume", "use_grid_bbox", "false", boxed("false"), boxed("true"))
+    placed = volume("sigma_t", "gridvolume", string("filename", files.CLOUD_BOXED), element("boolean", name="use_grid_bbox", value="true"), transform(scale(0.7), translate(0.2, 0, 0.1)))
+    yield Case("volume", "gridvolume", "use_grid_bbox", "true, placed", cloud(placed), boxed("true"))
+    for word in ("raw", "accel"):
+        yield Case("volume", "gridvolume", word, "true", cloud(grid("sigma_t", files.CLOUD, element("boolean", name=word, value="true"))), None)
+    yield Case("volume", "gridvolume", "max_value", "above the largest", cloud(grid("sigma_t", files.CLOUD, number("max_value", 5))), None)
+    moved = lambda *steps: cloud(grid("sigma_t", place=transform(translate(-0.5, -0.5, -0.5), *steps)))
+    yield Case("volume", "gridvolume", "to_world", "scaled unevenly", moved(scale(2.4, 1.2, 1.8)), moved(scale(2)))
+    yield Case("volume", "gridvolume", "to_world", "turned by 90", moved(scale(2.4, 1.2, 1.8), rotate(0, 0, 1, 90)), moved(scale(2.4, 1.2, 1.8)))
+    yield Case("volume", "gridvolume", "to_world", "mirrored", moved(scale(-2.2, 2, 1.8)), moved(scale(2.2, 2, 1.8)))
+    yield Case("volume", "gridvolume", "to_world", "turned by 30", moved(scale(2), rotate(0, 1, 0, 30)), moved(scale(2)))
 
 
 def phases():

@@ -38,5 +38,8 @@ PLANTED = [
     ("phase hg: g: -0.6", 'name="g" value="-0.6"', 'name="g" value="-0.5"'),
     ("phase blendphase: weight: 0.2", 'name="weight" value="0.2"', 'name="weight" value="0.3"'),
     ("medium homogeneous: interior: dielectric", '<float name="g" value="0.4"/>', '<float name="g" value="-0.4"/>'),
+    ("medium heterogeneous: scale: 2.5, of a grid", 'name="scale" value="2.5"', 'name="scale" value="2.9"'),
+    ("medium heterogeneous: albedo: grid", 'x="2.2" y="2" z="1.8"', 'x="-2.2" y="2" z="1.8"'),
+    ("volume gridvolume: filter_type: nearest", 'value="nearest"', 'value="trilinear"'),
     ("integrator path: max_depth: 3", 'name="max_depth" value="3"', 'name="max_depth" value="4"'),
 ]

@@ -23,6 +23,7 @@ impl Description {
         }
         self.transform_nodes(map, place)?;
         self.scale_media(map.matrix3.determinant().abs().cbrt())?;
+        self.move_grids(map, place)?;
         if !self.file.medium.is_empty() && !is_uniform(map) {
             let instead = "they are as dense as under an even scale of the same volume";
             self.report.approximate(
@@ -80,6 +81,18 @@ impl Description {
             }
             medium.emission.as_mut().map_or(Ok(()), |value| scaled(&mut value.0, 1.0 / factor))?;
             medium.mean_free_path.as_mut().map_or(Ok(()), |value| scaled(&mut value.value.0, factor))?;
+        }
+        Ok(())
+    }
+
+    /// Moves grids, which stand in the space of the scene.
+    fn move_grids(&mut self, map: &DAffine3, place: &Place) -> Result<(), String> {
+        for medium in &mut self.file.medium {
+            let grids = [&mut medium.density, &mut medium.albedo_grid, &mut medium.emission_grid, &mut medium.temperature];
+            for grid in grids.into_iter().flatten() {
+                let transform = &mut grid.value.transform;
+                *transform = TransformEntry::of_map(&(*map * map_of(transform.as_ref())), place)?;
+            }
         }
         Ok(())
     }

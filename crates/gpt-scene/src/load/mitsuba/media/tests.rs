@@ -1,12 +1,15 @@
 //! What media of Mitsuba's scenes become.
 
 use std::ffi::OsStr;
+use std::path::Path;
 
+use glam::DVec3;
 use tempfile::tempdir;
 
+use crate::load::volume::write_mitsuba;
 use crate::load::{LoadOptions, SceneError, load_with};
 use crate::scene::settings::NumberOrAuto;
-use crate::scene::{MaterialKind, Medium, Phase, PhaseKind, PhaseLobe, Scene, digest};
+use crate::scene::{MaterialKind, Medium, Phase, PhaseKind, PhaseLobe, Scene, VoxelGrid, digest};
 use crate::scene_writer::save_scene;
 use crate::spectrum::Spectrum;
 
@@ -26,11 +29,31 @@ fn load(text: &str) -> Result<Scene, SceneError> {
     let folder = tempdir().unwrap();
     let path = folder.path().join("a.xml");
     std::fs::write(&path, text).unwrap();
+    write_volumes(folder.path());
     load_with(Some(OsStr::new(&path)), &LoadOptions::default())
 }
 
 fn read(text: &str) -> Scene {
     load(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// Grids without a symmetry: `cloud.vol` of one number in the box from (-1, 0, 0) to (1, 1, 2), `tints.vol` of colours, `red.vol` of densities in colours.
+fn write_volumes(folder: &Path) {
+    let write = |name: &str, grid: &VoxelGrid| {
+        std::fs::write(folder.join(name), write_mitsuba(grid, DVec3::new(-1.0, 0.0, 0.0), DVec3::new(1.0, 1.0, 2.0))).unwrap();
+    };
+    write("cloud.vol", &cloud());
+    write("tints.vol", &tints());
+    write("red.vol", &VoxelGrid::new([1, 1, 2], 3, vec![0.0, 0.0, 3.0, 1.0, 2.0, 3.0]).unwrap());
+    std::fs::write(folder.join("text.vol"), "no grid").unwrap();
+}
+
+fn cloud() -> VoxelGrid {
+    VoxelGrid::new([3, 2, 2], 1, (0..12).map(|value| (value * value) as f32 / 8.0).collect()).unwrap()
+}
+
+fn tints() -> VoxelGrid {
+    VoxelGrid::new([1, 2, 1], 3, vec![0.25, 0.5, 0.75, 1.0, 0.5, 0.0]).unwrap()
 }
 
 fn ball(radius: f64, within: &str) -> String {
@@ -262,4 +285,125 @@ fn imported_media_keep_their_optical_depth() {
     let uneven = read("transform = [{ scale = [1, 1, 8] }]\n");
     near(uneven.media[1].extinction(), [1.5; 3]);
     assert!(report(&uneven).contains("media of an import that is scaled unevenly"), "{}", report(&uneven));
+}
+
+const CLOUD: &str = "<volume type=\"gridvolume\" name=\"sigma_t\"><string name=\"filename\" value=\"cloud.vol\"/>MORE</volume>";
+const TINTS: &str = "<volume type=\"gridvolume\" name=\"albedo\"><string name=\"filename\" value=\"tints.vol\"/></volume>";
+
+/// What is lost and what is scattered at a point.
+fn at(medium: &Medium, point: DVec3) -> [Spectrum; 2] {
+    let Some(grids) = &medium.grids else { return [medium.extinction(), medium.scattering] };
+    let density = grids.density().value_at(point);
+    let albedo = grids.albedo().map(|albedo| albedo.value_at(point));
+    let scattering = albedo.map_or(medium.scattering, |albedo| medium.extinction() * albedo);
+    [medium.extinction() * density, scattering * density]
+}
+
+fn grey(value: f64) -> [f64; 3] {
+    [value; 3]
+}
+
+/// A grid fills the unit cube, or its own box, where `to_world` places it; there is nothing outside.
+#[test]
+fn densities_of_grids_stand_where_they_do_there() {
+    let of = |more: &str, keys: &str| medium("heterogeneous", &(CLOUD.replace("MORE", more) + keys));
+    let place = "<transform name=\"to_world\"><scale value=\"4\"/><translate x=\"1\"/></transform>";
+    let own_box = "<boolean name=\"use_grid_bbox\" value=\"true\"/>";
+    let nearest = "<string name=\"filter_type\" value=\"nearest\"/>";
+    let size = DVec3::new(3.0, 2.0, 2.0);
+    for within in [DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.5, 0.9, 0.6), DVec3::new(0.95, 0.5, 0.05)] {
+        let (smooth, plain) = (cloud().trilinear(within * size).r(), cloud().nearest(within * size).r());
+        assert_ne!(smooth, plain);
+        let boxed = DVec3::new(-1.0, 0.0, 0.0) + within * DVec3::new(2.0, 1.0, 2.0);
+        let move_out = |point: DVec3| point * 4.0 + DVec3::X;
+        for (more, point, expected) in [
+            (String::new(), within, smooth),
+            (nearest.to_owned(), within, plain),
+            (place.to_owned(), move_out(within), smooth),
+            (own_box.to_owned(), boxed, smooth),
+            (format!("{own_box}{place}"), move_out(boxed), smooth),
+        ] {
+            let medium = of(&more, "<float name=\"scale\" value=\"2\"/><float name=\"albedo\" value=\"0.25\"/>");
+            let [extinction, scattering] = at(&medium, point);
+            near(extinction, grey(2.0 * expected));
+            near(scattering, grey(0.5 * expected));
+            near(at(&medium, point + DVec3::splat(50.0))[0], grey(0.0));
+        }
+    }
+    // Numbers fill the unit cube alone, wherever that is.
+    let unit = medium("heterogeneous", "<rgb name=\"sigma_t\" value=\"1, 2, 3\"/>");
+    near(at(&unit, DVec3::splat(0.9))[0], [1.0, 2.0, 3.0]);
+    near(at(&unit, DVec3::splat(-0.1))[0], grey(0.0));
+    let moved = format!("<volume type=\"constvolume\" name=\"sigma_t\"><float name=\"value\" value=\"2\"/>{place}</volume>");
+    let moved = medium("heterogeneous", &moved);
+    near(at(&moved, DVec3::splat(3.0))[0], grey(2.0));
+    near(at(&moved, DVec3::splat(0.5))[0], grey(0.0));
+}
+
+/// An albedo goes on beyond its box as it is at the border, of media that are the same everywhere too.
+#[test]
+fn albedos_of_grids_go_on() {
+    for (plugin, density) in [("heterogeneous", CLOUD.replace("MORE", "")), ("homogeneous", "<float name=\"sigma_t\" value=\"4\"/>".to_owned())] {
+        let medium = medium(plugin, &(density + TINTS));
+        let point = DVec3::new(0.3, 0.6, 0.4);
+        let [extinction, scattering] = at(&medium, point);
+        let albedo = tints().trilinear(point * DVec3::new(1.0, 2.0, 1.0));
+        near(scattering, (extinction * albedo).to_rgb());
+        assert!(extinction.r() > 0.1 && albedo.r() != albedo.g());
+    }
+    let everywhere = medium("homogeneous", &format!("<float name=\"sigma_t\" value=\"4\"/>{TINTS}"));
+    near(at(&everywhere, DVec3::new(9.0, 9.0, 9.0))[1], [4.0, 2.0, 0.0]);
+    near(at(&everywhere, DVec3::new(9.0, -9.0, 9.0))[1], [1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn what_is_not_exact_of_a_grid_is_reported_and_what_is_wrong_refused() {
+    let of = |keys: &str| document(VOLPATH, "", &ball(1.0, &format!("{BODY}<medium type=\"heterogeneous\" name=\"interior\">{keys}</medium>")));
+    let turned = "<transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/></transform>";
+    let square = "<transform name=\"to_world\"><rotate z=\"1\" angle=\"90\"/></transform>";
+    for (keys, said) in [
+        (CLOUD.replace("MORE", "").replace("cloud.vol", "red.vol"), "density of a medium in colours"),
+        (CLOUD.replace("MORE", turned), "density of a medium that is turned"),
+        (CLOUD.replace("MORE", "<string name=\"wrap_mode\" value=\"repeat\"/>"), "wrap_mode `repeat`"),
+        (CLOUD.replace("MORE", "<float name=\"unheard_of\" value=\"1\"/>"), "unheard_of"),
+        ("<volume type=\"procedural\" name=\"sigma_t\"/>".to_owned(), "volume `procedural`"),
+        // The controls: nothing is said of what is exact.
+        (CLOUD.replace("MORE", square), ""),
+        (CLOUD.replace("MORE", "<string name=\"wrap_mode\" value=\"mirror\"/><boolean name=\"raw\" value=\"true\"/>"), ""),
+    ] {
+        let report = report(&read(&of(&keys)));
+        assert!(report.contains(said) && report.is_empty() == said.is_empty(), "{keys}: {report}");
+    }
+    for (keys, said) in [
+        ("<volume type=\"gridvolume\" name=\"sigma_t\"/>".to_owned(), "needs the string `filename`"),
+        (CLOUD.replace("MORE", "").replace("cloud.vol", "absent.vol"), "there is no file absent.vol"),
+        (CLOUD.replace("MORE", "").replace("cloud.vol", "text.vol"), "does not begin as such a file does"),
+        (CLOUD.replace("MORE", "<string name=\"filter_type\" value=\"cubic\"/>"), "trilinear or nearest, not cubic"),
+        (CLOUD.replace("MORE", "") + "<float name=\"scale\" value=\"-1\"/>", "-1"),
+    ] {
+        let message = load(&of(&keys)).expect_err("it is wrong").to_string();
+        assert!(message.contains(said) && message.contains("a.xml:1"), "{keys}: {message}");
+    }
+}
+
+/// Grids move with an import, and what they are per unit length stays in proportion.
+#[test]
+fn grids_of_an_import_are_moved() {
+    let folder = tempdir().unwrap();
+    write_volumes(folder.path());
+    let cloud = format!("<medium type=\"heterogeneous\" name=\"interior\">{}{TINTS}</medium>", CLOUD.replace("MORE", ""));
+    std::fs::write(folder.path().join("a.xml"), document(VOLPATH, "", &ball(1.0, &format!("{BODY}{cloud}")))).unwrap();
+    let read = |transform: &str| {
+        let path = folder.path().join("b.toml");
+        std::fs::write(&path, format!("[[import]]\nfile = \"a.xml\"\n{transform}")).unwrap();
+        let scene = load_with(Some(OsStr::new(&path)), &LoadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+        scene.media[0].clone()
+    };
+    let (plain, moved) = (read(""), read("transform = [{ scale = 2 }, { translate = [0, 5, 0] }]\n"));
+    let point = DVec3::new(0.3, 0.6, 0.4);
+    let [lost, scattered] = at(&plain, point);
+    let there = at(&moved, point * 2.0 + 5.0 * DVec3::Y);
+    near(there[0], (lost * 0.5).to_rgb());
+    near(there[1], (scattered * 0.5).to_rgb());
+    assert!(lost.r() > 0.1);
 }

@@ -13,9 +13,11 @@ use crate::load::error::{SceneError, show};
 use crate::load::file::reference::FileOr;
 use crate::load::file::value::Exactly;
 use crate::load::file::volume::{OutsideName, VolumeEntry, VolumeFilterName};
+use crate::load::import::is_upright;
 use crate::load::memory;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
+use crate::load::place::Place;
 use crate::load::volume::{self, MOST_VOLUME_BYTES, PlacedGrid};
 use crate::scene::VoxelGrid;
 use crate::spectrum::Spectrum;
@@ -38,6 +40,10 @@ pub struct Grid {
 }
 
 impl Grid {
+    pub fn place(&self) -> Place {
+        self.plugin.at()
+    }
+
     /// The mean of its voxels.
     pub fn mean(&self) -> Spectrum {
         let grid = &self.placed.grid;
@@ -128,8 +134,7 @@ impl Converter<'_> {
             other => return Err(plugin.error(format!("`wrap_mode` is clamp, repeat or mirror, not {other}"))),
         }
         let own = plugin.transform("to_world")?;
-        let is_upright = own.matrix3.to_cols_array_2d().iter().all(|axis| axis.iter().filter(|part| **part != 0.0).count() == 1);
-        if outside == OutsideName::Background && !is_upright {
+        if outside == OutsideName::Background && !is_upright(&own) {
             let instead =
                 "nothing is outside of its own box; there its border goes on to the corners of an upright box around that";
             self.approximate(plugin, "density of a medium that is turned", instead);

@@ -2,8 +2,10 @@
 
 use std::ffi::OsStr;
 
+use glam::DVec3;
 use tempfile::tempdir;
 
+use super::share_scattered;
 use crate::load::{LoadOptions, load_toml_str, load_with};
 use crate::scene::{Medium, PhaseKind, Scene};
 use crate::scene_writer::as_mitsuba;
@@ -141,4 +143,41 @@ fn what_mitsuba_cannot_say_of_a_medium_is_reported() {
     let expected = [0.0, 0.5_f64.ln() / -2.0, 0.25_f64.ln() / -2.0];
     let difference = (medium.absorption - crate::spectrum::Spectrum::from_rgb(expected)).map(f64::abs).max_component();
     assert!(difference < 1e-12 && medium.scattering.is_black(), "{medium:?}");
+}
+
+/// Grids are written as files of Mitsuba's.
+#[test]
+fn grids_come_back() {
+    let cloud = |keys: &str| {
+        format!(
+            "[[medium]]\nname = \"cloud\"\n{keys}density = {{ resolution = [2, 1, 3], values = [0, 1, 2, 3, 4, 5], bounds = [[-1, 0, 0], [1, 2, 2]], scale = 2 }}\n\
+             [[material]]\nname = \"hull\"\ntype = \"pass\"\ninterior = \"cloud\"\n[[shape]]\ntype = \"box\"\nmin = [-2, -2, -2]\nmax = [2, 2, 2]\nmaterial = \"hull\"\n"
+        )
+    };
+    let tints = "mean_free_path = 0.5\nalbedo_grid = { resolution = [1, 2, 1], values = [0.25, 0.5, 0.75, 1, 0.5, 0], filter = \"nearest\", outside = \"border\" }\n";
+    for keys in ["absorption = 1\nscattering = 3\n", "absorption = [1, 2, 3]\nscattering = [3, 1, 1]\n", tints] {
+        let scene = scene(&cloud(keys));
+        let (text, read, said) = round_trip(&scene);
+        assert_eq!(said, Vec::<String>::new(), "{text}");
+        let (was, is) = (&scene.media[0], within(&read, 0).expect("a medium"));
+        let mut largest = 0.0_f64;
+        for point in [[-0.9, 0.3, 0.1], [0.2, 1.9, 1.0], [0.7, 1.1, 1.8], [0.5, 0.5, 3.0]].map(DVec3::from_array) {
+            let at = |medium: &Medium| {
+                let grids = medium.grids.as_ref().expect("grids");
+                let density = medium.extinction() * grids.density().value_at(point);
+                let albedo = grids.albedo().map(|albedo| albedo.value_at(point));
+                [density, density * albedo.unwrap_or(share_scattered(medium.scattering, medium.extinction()))]
+            };
+            for (was, is) in at(was).into_iter().zip(at(is)) {
+                // Voxels have single precision.
+                assert!((was - is).map(f64::abs).max_component() < 1e-5, "{point}: {is} instead of {was}\n{text}");
+                largest = largest.max(is.max_component());
+            }
+        }
+        assert!(largest > 5.0, "the points show something");
+    }
+    let glows = cloud("absorption = 1\nemission = 3\ntemperature = { resolution = [1, 1, 1], values = [3000] }\n");
+    assert!(round_trip(&scene(&glows)).2.iter().any(|said| said.contains("emission of a medium")));
+    let endless = cloud("absorption = 1\n").replace("scale = 2", "outside = \"border\"");
+    assert!(round_trip(&scene(&endless)).2.iter().any(|said| said.contains("outside of its grid")));
 }
