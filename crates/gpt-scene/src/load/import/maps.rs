@@ -15,15 +15,6 @@ pub fn is_uniform(map: &DAffine3) -> bool {
     squared > 0.0 && uneven.to_cols_array().into_iter().all(|number| number.abs() <= 1e-9 * squared)
 }
 
-/// The map leads axes to axes: it scales along them and exchanges them alone.
-pub fn is_upright(map: &DAffine3) -> bool {
-    let is_axis = |axis: [f64; 3]| {
-        let largest = axis.into_iter().map(f64::abs).fold(0.0, f64::max);
-        axis.into_iter().filter(|part| part.abs() > 1e-9 * largest).count() == 1
-    };
-    map.matrix3.to_cols_array_2d().into_iter().all(is_axis)
-}
-
 /// A direction in the world, of length 1; None where nothing is left of it.
 pub fn world_direction(map: &DAffine3, direction: DVec3) -> Option<DVec3> {
     (map.matrix3 * direction).try_normalize()

@@ -15,5 +15,5 @@ pub use crate::scene::ImportReport;
 pub use attribute::Blocks;
 pub use description::{Description, pays_as_instances};
 pub use input::Input;
-pub use maps::{camera_at, is_uniform, is_upright, world_direction};
+pub use maps::{camera_at, is_uniform, world_direction};
 pub use mesh::{cylinder, disk, grid_sphere, smooth_by_index, square, unit_cube};

@@ -4,7 +4,6 @@
 //! all of them.
 
 use std::collections::HashSet;
-use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use toml::Table;
@@ -12,11 +11,11 @@ use toml::Table;
 use super::Writer;
 use super::keys::{entries, table, text};
 use super::xml::{Element, matrix};
-use crate::load::import::is_upright;
 use crate::load::volume::write_mitsuba;
+use crate::math::is_upright;
 use crate::scene::{
-    ColorInput, Geometry, Material, MaterialId, MaterialKind, Medium, MediumGrids, MediumId, Outside, Phase, PhaseKind, PhaseLobe, Shape, Volume,
-    VolumeFilter, VoxelGrid,
+    ColorInput, Geometry, Material, MaterialId, MaterialKind, Medium, MediumGrids, MediumId, Outside, Phase, PhaseKind,
+    PhaseLobe, Shape, Volume, VolumeFilter, VoxelGrid,
 };
 use crate::spectrum::Spectrum;
 
@@ -97,7 +96,11 @@ impl Writer<'_> {
                 if matches!(albedo.outside, Outside::Constant(_)) {
                     self.approximate("albedo of a medium outside of its grid", place, "it goes on as it is at the border");
                 }
-                element.with(self.grid("albedo", (albedo, &of_key("albedo_grid")), Some(Spectrum::grey(albedo.scale)).filter(|scale| *scale != Spectrum::WHITE)))
+                element.with(self.grid(
+                    "albedo",
+                    (albedo, &of_key("albedo_grid")),
+                    Some(Spectrum::grey(albedo.scale)).filter(|scale| *scale != Spectrum::WHITE),
+                ))
             }
             None => element.rgb("albedo", share_scattered(medium.scattering, extinction)),
         }

@@ -343,7 +343,9 @@ fn densities_of_grids_stand_where_they_do_there() {
 /// An albedo goes on beyond its box as it is at the border, of media that are the same everywhere too.
 #[test]
 fn albedos_of_grids_go_on() {
-    for (plugin, density) in [("heterogeneous", CLOUD.replace("MORE", "")), ("homogeneous", "<float name=\"sigma_t\" value=\"4\"/>".to_owned())] {
+    for (plugin, density) in
+        [("heterogeneous", CLOUD.replace("MORE", "")), ("homogeneous", "<float name=\"sigma_t\" value=\"4\"/>".to_owned())]
+    {
         let medium = medium(plugin, &(density + TINTS));
         let point = DVec3::new(0.3, 0.6, 0.4);
         let [extinction, scattering] = at(&medium, point);
@@ -358,7 +360,9 @@ fn albedos_of_grids_go_on() {
 
 #[test]
 fn what_is_not_exact_of_a_grid_is_reported_and_what_is_wrong_refused() {
-    let of = |keys: &str| document(VOLPATH, "", &ball(1.0, &format!("{BODY}<medium type=\"heterogeneous\" name=\"interior\">{keys}</medium>")));
+    let of = |keys: &str| {
+        document(VOLPATH, "", &ball(1.0, &format!("{BODY}<medium type=\"heterogeneous\" name=\"interior\">{keys}</medium>")))
+    };
     let turned = "<transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/></transform>";
     let square = "<transform name=\"to_world\"><rotate z=\"1\" angle=\"90\"/></transform>";
     for (keys, said) in [

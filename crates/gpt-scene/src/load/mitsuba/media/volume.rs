@@ -13,12 +13,12 @@ use crate::load::error::{SceneError, show};
 use crate::load::file::reference::FileOr;
 use crate::load::file::value::Exactly;
 use crate::load::file::volume::{OutsideName, VolumeEntry, VolumeFilterName};
-use crate::load::import::is_upright;
 use crate::load::memory;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
 use crate::load::place::Place;
 use crate::load::volume::{self, MOST_VOLUME_BYTES, PlacedGrid};
+use crate::math::is_upright;
 use crate::scene::VoxelGrid;
 use crate::spectrum::Spectrum;
 
