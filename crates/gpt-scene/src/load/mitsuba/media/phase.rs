@@ -9,8 +9,9 @@ use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
 use crate::load::mitsuba::transform::numbers;
 
-/// Most phase functions within each other.
+/// Most phase functions within each other, and in one medium: blends share what they name, and each share is one of its own here.
 const DEEPEST: usize = 32;
+const MOST: usize = 256;
 
 impl Converter<'_> {
     /// The phase function of a medium; None is the isotropic one.
@@ -18,14 +19,17 @@ impl Converter<'_> {
         let within: Vec<Rc<Plugin>> = medium.children_of("phase").into_iter().cloned().collect();
         match &within[..] {
             [] => Ok(None),
-            [phase] => self.phase(phase, 0).map(Some),
+            [phase] => self.phase(phase, 0, &mut 0).map(Some),
             more => Err(medium.error(format!("a medium has one phase function, and this one {}", more.len()))),
         }
     }
 
-    fn phase(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<PhaseEntry, SceneError> {
-        if depth > DEEPEST {
-            return Err(plugin.error(format!("phase functions lie more than {DEEPEST} deep within each other")));
+    fn phase(&mut self, plugin: &Rc<Plugin>, depth: usize, count: &mut usize) -> Result<PhaseEntry, SceneError> {
+        *count += 1;
+        if depth > DEEPEST || *count > MOST {
+            let message =
+                format!("a medium has more than {MOST} phase functions, or they lie more than {DEEPEST} deep within each other");
+            return Err(plugin.error(message));
         }
         plugin.visited.set(true);
         plugin.without_effect(&["id"]);
@@ -38,12 +42,12 @@ impl Converter<'_> {
             }
             "blendphase" => {
                 let share = self.volume_mean(plugin, "weight", 0.5)?.mean().clamp(0.0, 1.0);
-                self.blend(plugin, &[1.0 - share, share], depth)
+                self.blend(plugin, &[1.0 - share, share], depth, count)
             }
             "mixturephase" => {
                 let text = plugin.text("weights")?.ok_or_else(|| plugin.error("a mixture needs the string `weights`"))?;
                 let weights = numbers(&plugin.place, text)?;
-                self.blend(plugin, &weights, depth)
+                self.blend(plugin, &weights, depth, count)
             }
             "tabphase" => {
                 let text = plugin.text("values")?.ok_or_else(|| plugin.error("tabphase needs the string `values`"))?;
@@ -82,14 +86,14 @@ impl Converter<'_> {
     }
 
     /// The phase functions within, in the order in which they are written.
-    fn blend(&mut self, plugin: &Rc<Plugin>, weights: &[f64], depth: usize) -> Result<PhaseEntry, SceneError> {
+    fn blend(&mut self, plugin: &Rc<Plugin>, weights: &[f64], depth: usize, count: &mut usize) -> Result<PhaseEntry, SceneError> {
         let within: Vec<Rc<Plugin>> = plugin.children_of("phase").into_iter().cloned().collect();
         if within.len() != weights.len() {
             let message =
                 format!("{} has {} phase functions within, and {} weights", plugin.title(), within.len(), weights.len());
             return Err(plugin.error(message));
         }
-        let phases = within.iter().map(|phase| self.phase(phase, depth + 1)).collect::<Result<_, _>>()?;
+        let phases = within.iter().map(|phase| self.phase(phase, depth + 1, count)).collect::<Result<_, _>>()?;
         let weights = weights.iter().map(|weight| plugin.possible(Checked::of(*weight))).collect::<Result<_, _>>()?;
         let place = plugin.at();
         Ok(PhaseEntry::Blend(PhaseBlendKeys { phases: place.at(phases), weights: place.at(weights) }))

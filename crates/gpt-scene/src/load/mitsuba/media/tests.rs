@@ -171,6 +171,22 @@ fn phase_functions_are_what_they_say_or_reported() {
     }
 }
 
+/// Each of 30 blends names the one before twice.
+#[test]
+fn blends_that_share_their_parts_end() {
+    let mut text = "<phase type=\"hg\" id=\"p0\"/>".to_owned();
+    for blend in 1..30 {
+        let part = format!("<ref id=\"p{}\"/>", blend - 1);
+        text += &format!("<phase type=\"blendphase\" id=\"p{blend}\"><float name=\"weight\" value=\"0.5\"/>{part}{part}</phase>");
+    }
+    let of = |blend: usize| {
+        let medium = format!("<medium type=\"homogeneous\" name=\"interior\"><ref id=\"p{blend}\"/></medium>");
+        load(&document(VOLPATH, "", &(text.clone() + &ball(1.0, &format!("{BODY}{medium}")))))
+    };
+    assert!(of(29).expect_err("they are too many").to_string().contains("phase functions"));
+    assert!(of(5).is_ok());
+}
+
 const FOG: &str = "<medium type=\"homogeneous\" id=\"fog\"/><medium type=\"homogeneous\" id=\"milk\"><float name=\"sigma_t\" value=\"3\"/></medium>";
 const IN_FOG: &str = "<ref id=\"fog\"/>";
 const MILK: &str = "<ref name=\"interior\" id=\"milk\"/>";
