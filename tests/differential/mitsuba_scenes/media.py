@@ -108,7 +108,8 @@ def grids():
         yield Case("medium", type_, "sigma_t", "not given", cloud(), cloud(number("sigma_t", 2)))
         yield Case("medium", type_, "sigma_t", "float", cloud(number("sigma_t", 3)), cloud())
         yield Case("medium", type_, "sigma_t", "volume of a float, placed", cloud(volume("sigma_t", "constvolume", number("value", 2), BOX)), cloud(number("sigma_t", 2)))
-        yield Case("medium", type_, "sigma_t", "grid in colours", cloud(grid("sigma_t", files.CLOUD_TINTED)), plain)
+        yield Case("medium", type_, "sigma_t", "grid of one colour", cloud(grid("sigma_t", files.CLOUD_TINTED)), plain)
+        yield Case("medium", type_, "sigma_t", "grid in colours", cloud(grid("sigma_t", files.TINTS), number("scale", 4)), plain)
         for factor in (0.4, 2.5):
             yield Case("medium", type_, "scale", f"{factor}, of a grid", cloud(grid("sigma_t"), number("scale", factor)), plain)
         yield Case("medium", type_, "scale", "2, of a float", cloud(number("sigma_t", 1.5), number("scale", 2)), cloud(number("sigma_t", 1.5)))

@@ -169,11 +169,11 @@ impl Converter<'_> {
                 (value * scale, VolumeEntry { transform, ..one_voxel(plugin)? })
             }
             Parameter::Grid(grid) => {
-                let mut density = self.grid_entry(&grid, OutsideName::Background, true)?;
+                let (mut density, tint) = self.density_entry(&grid)?;
                 if scale != 1.0 {
                     density.scale = Some(plugin.at().at(plugin.possible(Checked::of(scale))?));
                 }
-                (Spectrum::WHITE, density)
+                (tint, density)
             }
         };
         let density = plugin.at().at(density);
@@ -199,7 +199,7 @@ impl Converter<'_> {
             }
             Parameter::Grid(grid) => {
                 let place = plugin.at();
-                let albedo = self.grid_entry(&grid, OutsideName::Border, false)?;
+                let albedo = self.grid_entry(&grid, OutsideName::Border)?;
                 let free = extinction.map(|lost| if lost > 1.0 / LARGEST { 1.0 / lost } else { LARGEST });
                 Ok(MediumEntry {
                     density: Some(density.unwrap_or(otherwise)),

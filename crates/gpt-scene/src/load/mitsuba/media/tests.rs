@@ -45,6 +45,7 @@ fn write_volumes(folder: &Path) {
     write("cloud.vol", &cloud());
     write("tints.vol", &tints());
     write("red.vol", &VoxelGrid::new([1, 1, 2], 3, vec![0.0, 0.0, 3.0, 1.0, 2.0, 3.0]).unwrap());
+    write("tinted.vol", &VoxelGrid::new([1, 1, 2], 3, vec![1.0, 0.5, 2.0, 2.0, 1.0, 4.0]).unwrap());
     std::fs::write(folder.join("text.vol"), "no grid").unwrap();
 }
 
@@ -345,6 +346,11 @@ fn densities_of_grids_stand_where_they_do_there() {
             near(scattering, grey(0.5 * expected));
             near(at(&medium, point + DVec3::splat(50.0))[0], grey(0.0));
         }
+    }
+    // A density of one colour everywhere is that colour times a number.
+    let tinted = medium("heterogeneous", &CLOUD.replace("MORE", own_box).replace("cloud.vol", "tinted.vol"));
+    for (z, expected) in [(0.0, [1.0, 0.5, 2.0]), (2.0, [2.0, 1.0, 4.0])] {
+        near(at(&tinted, DVec3::new(0.0, 0.5, z))[0], expected);
     }
     // Numbers fill the unit cube alone, wherever that is.
     let unit = medium("heterogeneous", "<rgb name=\"sigma_t\" value=\"1, 2, 3\"/>");

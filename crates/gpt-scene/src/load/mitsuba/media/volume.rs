@@ -94,7 +94,7 @@ impl Converter<'_> {
         Ok(match self.volume_parameter(plugin, name, default)? {
             Parameter::Constant { value, .. } => value,
             Parameter::Grid(grid) => {
-                let _ = self.grid_entry(&grid, OutsideName::Border, false)?;
+                let _ = self.grid_entry(&grid, OutsideName::Border)?;
                 let what = format!("grid of `{name}` of {}", plugin.title());
                 self.approximate(plugin, &what, "the mean of its voxels is taken");
                 grid.mean()
@@ -114,9 +114,9 @@ impl Converter<'_> {
         Ok(Grid { plugin: plugin.clone(), path, placed })
     }
 
-    /// The grid as an entry with this outside; of one channel where that is wanted.
-    pub(super) fn grid_entry(&mut self, grid: &Grid, outside: OutsideName, wants_one: bool) -> Result<VolumeEntry, SceneError> {
-        let Grid { plugin, path, placed } = grid;
+    /// The grid as an entry with this outside.
+    pub(super) fn grid_entry(&mut self, grid: &Grid, outside: OutsideName) -> Result<VolumeEntry, SceneError> {
+        let Grid { plugin, path, .. } = grid;
         let place = plugin.at();
         let filter = match plugin.text("filter_type")?.unwrap_or("trilinear") {
             "trilinear" => None,
@@ -139,27 +139,12 @@ impl Converter<'_> {
                 "nothing is outside of its own box; there its border goes on to the corners of an upright box around that";
             self.approximate(plugin, "density of a medium that is turned", instead);
         }
-        let of_one = (wants_one && placed.grid.channels() > 1).then(|| self.of_one_channel(plugin, &placed.grid)).transpose()?;
-        let uses_own_box = plugin.flag("use_grid_bbox", false)?;
-        let bounds = match (uses_own_box, &of_one) {
-            (false, _) => Some([DVec3::ZERO, DVec3::ONE]),
-            (true, None) => None,
-            (true, Some(_)) => {
-                let to_box = placed.to_index.inverse();
-                let size = DVec3::from_array(placed.grid.resolution().map(f64::from));
-                Some([to_box.translation, to_box.transform_point3(size)])
-            }
+        let bounds = match plugin.flag("use_grid_bbox", false)? {
+            true => None,
+            false => Some(place.at(Exactly([plugin.possible(Exactly::of([0.0; 3]))?, plugin.possible(Exactly::of([1.0; 3]))?]))),
         };
-        let bounds = match bounds {
-            Some([low, high]) => {
-                let corner = |corner: DVec3| plugin.possible(Exactly::of(corner.to_array()));
-                Some(place.at(Exactly([corner(low)?, corner(high)?])))
-            }
-            None => None,
-        };
-        let file = of_one.map_or_else(|| FileOr::OnDisk(path.clone()), FileOr::InMemory);
         Ok(VolumeEntry {
-            file: Some(place.at(file)),
+            file: Some(place.at(FileOr::OnDisk(path.clone()))),
             bounds,
             filter,
             outside: Some(outside),
@@ -168,13 +153,47 @@ impl Converter<'_> {
         })
     }
 
-    /// The mean of its channels.
-    fn of_one_channel(&mut self, plugin: &Rc<Plugin>, grid: &VoxelGrid) -> Result<Arc<VoxelGrid>, SceneError> {
-        let voxels = grid.values().chunks_exact(grid.channels());
-        if voxels.clone().any(|voxel| voxel.iter().any(|value| *value != voxel[0])) {
-            self.approximate(plugin, "density of a medium in colours", "the mean of red, green and blue is taken");
+    /// A density of one channel, and the colour by which its voxels are multiplied: all of them by one, or the mean of the channels is taken.
+    fn of_one_channel(&mut self, grid: &Grid) -> Result<(Arc<VoxelGrid>, Spectrum), SceneError> {
+        let Grid { plugin, placed, .. } = grid;
+        let grid = &placed.grid;
+        if grid.channels() == 1 {
+            return Ok((grid.clone(), Spectrum::WHITE));
         }
-        let values = voxels.map(|voxel| voxel.iter().sum::<f32>() / voxel.len() as f32).collect();
-        plugin.possible(VoxelGrid::new(grid.resolution(), 1, values)).map(Arc::new)
+        let voxels = grid.values().chunks_exact(grid.channels());
+        let largest = |voxel: &[f32]| voxel.iter().copied().fold(0.0, f32::max);
+        let densest = voxels.clone().max_by(|a, b| largest(a).total_cmp(&largest(b))).unwrap_or(&[1.0; 3]);
+        let tint: Vec<f32> = match largest(densest) {
+            0.0 => vec![1.0; 3],
+            most => densest.iter().map(|value| value / most).collect(),
+        };
+        let is_tinted = |voxel: &[f32]| {
+            let most = largest(voxel);
+            voxel.iter().zip(&tint).all(|(value, share)| (value - most * share).abs() <= 1e-5 * most)
+        };
+        let (values, tint) = if voxels.clone().all(is_tinted) {
+            let share = |channel: usize| f64::from(tint[channel]);
+            (voxels.map(largest).collect(), Spectrum::new(share(0), share(1), share(2)))
+        } else {
+            self.approximate(plugin, "density of a medium in colours", "the mean of red, green and blue is taken");
+            (voxels.map(|voxel| voxel.iter().sum::<f32>() / voxel.len() as f32).collect(), Spectrum::WHITE)
+        };
+        Ok((Arc::new(plugin.possible(VoxelGrid::new(grid.resolution(), 1, values))?), tint))
+    }
+
+    /// The density of a medium, which is nowhere but in its box, and the colour that multiplies it.
+    pub(super) fn density_entry(&mut self, grid: &Grid) -> Result<(VolumeEntry, Spectrum), SceneError> {
+        let (of_one, tint) = self.of_one_channel(grid)?;
+        let mut entry = self.grid_entry(grid, OutsideName::Background)?;
+        if grid.placed.grid.channels() > 1 {
+            let to_box = grid.placed.to_index.inverse();
+            let corner = |point: DVec3| grid.plugin.possible(Exactly::of(to_box.transform_point3(point).to_array()));
+            if entry.bounds.is_none() {
+                let size = DVec3::from_array(of_one.resolution().map(f64::from));
+                entry.bounds = Some(grid.place().at(Exactly([corner(DVec3::ZERO)?, corner(size)?])));
+            }
+            entry.file = Some(grid.place().at(FileOr::InMemory(of_one)));
+        }
+        Ok((entry, tint))
     }
 }
