@@ -39,11 +39,11 @@ import coverage
 import judge
 import table
 from known_mitsuba import KNOWN, NOT_IN_SCENES
-from mitsuba_scenes import bsdfs, documents, emitters, files, sensors, shapes, textures
+from mitsuba_scenes import bsdfs, documents, emitters, files, media, sensors, shapes, textures
 from mitsuba_scenes.planted import PLANTED
 from programs import ROOT, Gpt
 
-MODULES = (bsdfs, textures, emitters, shapes, sensors, documents)
+MODULES = (bsdfs, textures, emitters, shapes, sensors, media, documents)
 # Numbers for a scene at first, and where something is in doubt: renders of Mitsuba's, samples of a pixel in each, and ours in all.
 STAGES = ((16, 16, 256), (32, 48, 1536))
 # Passes of one render have seeds that follow each other, and must not be those of the next render.

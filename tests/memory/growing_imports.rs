@@ -33,13 +33,19 @@ fn mitsuba_scenes_of_many_things() {
     // The lines that stand in the scene so many times, and those that use them.
     type Lines = fn(usize) -> String;
     let nothing: Lines = |_| String::new();
-    let rows: [(&str, usize, Lines, Lines); 15] = [
+    let rows: [(&str, usize, Lines, Lines); 16] = [
         ("shapes", 1000, |_| "<shape type=\"sphere\"><bsdf type=\"diffuse\"/></shape>".to_owned(), nothing),
         (
             "names of materials",
             1000,
             |i| format!("<bsdf type=\"diffuse\" id=\"m{i}\"/>"),
             |i| format!("<shape type=\"sphere\"><ref id=\"m{i}\"/></shape>"),
+        ),
+        (
+            "media",
+            1000,
+            |i| format!("<medium type=\"homogeneous\" id=\"m{i}\"/>"),
+            |i| format!("<shape type=\"sphere\"><bsdf type=\"null\"/><ref name=\"interior\" id=\"m{i}\"/></shape>"),
         ),
         (
             "references to one",

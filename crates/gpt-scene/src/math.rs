@@ -1,6 +1,6 @@
 //! Small mathematics that several steps of the data's way share: colour, outward rounding, frames, what a dielectric reflects.
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 
 use crate::spectrum::Spectrum;
 
@@ -129,6 +129,15 @@ pub mod octahedron {
     fn over_edge(x: f64, y: f64) -> f64 {
         (1.0 - y.abs()).copysign(x)
     }
+}
+
+/// The map leads axes to axes: it scales along them and exchanges them alone.
+pub fn is_upright(map: &DAffine3) -> bool {
+    let is_axis = |axis: [f64; 3]| {
+        let largest = axis.into_iter().map(f64::abs).fold(0.0, f64::max);
+        axis.into_iter().filter(|part| part.abs() > 1e-9 * largest).count() == 1
+    };
+    map.matrix3.to_cols_array_2d().into_iter().all(is_axis)
 }
 
 #[cfg(test)]

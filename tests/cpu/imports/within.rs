@@ -98,10 +98,34 @@ const MITSUBA: &str = "<scene version=\"3.0.0\"><shape type=\"sphere\"><float na
     <bsdf type=\"diffuse\"><texture type=\"checkerboard\" name=\"reflectance\"/></bsdf></shape>\
     <emitter type=\"point\"><point name=\"position\" value=\"1, 2, 3\"/></emitter></scene>";
 
+const FOG: &str = "<scene version=\"3.0.0\"><integrator type=\"volpath\"/><sensor type=\"perspective\"><transform name=\"to_world\">\
+    <lookat origin=\"0, 0, 5\" target=\"0, 0, 0\" up=\"0, 1, 0\"/></transform><ref id=\"fog\"/></sensor><medium type=\"homogeneous\" id=\"fog\">\
+    <float name=\"sigma_t\" value=\"0.2\"/><phase type=\"hg\"/></medium><shape type=\"sphere\"><bsdf type=\"dielectric\"/><medium type=\"homogeneous\" \
+    name=\"interior\"/><ref name=\"exterior\" id=\"fog\"/></shape><emitter type=\"point\"><point name=\"position\" value=\"1, 2, 3\"/></emitter></scene>";
+
+/// Media come along with their names, and the camera keeps the one that it is within: the file by itself, imported, and imported from what is
+/// written of it are one picture.
+#[test]
+fn media_come_along() {
+    let text = format!("[[import]]\nfile = \"a.xml\"\n{}", LIGHT.replace("0.5", "0"));
+    let folder = Folder::new(&[("a.xml", FOG.as_bytes()), ("scene.toml", text.as_bytes())]);
+    let (alone, imported) = (folder.valid("a.xml"), folder.valid("scene.toml"));
+    let names = |scene: &Scene| scene.media.iter().map(|medium| medium.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&alone), ["fog", "homogeneous"]);
+    assert_eq!(names(&imported), ["a/fog", "a/homogeneous"]);
+    assert_eq!(picture(&imported), picture(&alone));
+    assert_eq!(picture(&folder.written("scene.toml")), picture(&alone));
+    // The control: the same without fog around the camera.
+    let clear = FOG.replacen("<ref id=\"fog\"/>", "", 1);
+    let folder = Folder::new(&[("a.xml", clear.as_bytes()), ("scene.toml", text.as_bytes())]);
+    assert_ne!(picture(&folder.valid("scene.toml")), picture(&alone));
+}
+
 /// Every list of a scene file with one entry: its key, and the keys of the entry.
-const LISTS: [(&str, &str); 7] = [
+const LISTS: [(&str, &str); 8] = [
     ("texture", "name = \"squares\"; type = \"checker\"; a = 0.2; b = 0.8"),
-    ("material", "name = \"own\"; type = \"diffuse\"; reflectance = { texture = \"squares\" }"),
+    ("medium", "name = \"air\"; absorption = 0.1; scattering = 0.2"),
+    ("material", "name = \"own\"; type = \"diffuse\"; reflectance = { texture = \"squares\" }; interior = \"air\""),
     ("shape", "type = \"sphere\"; center = [1, 1, 0]; radius = 0.3; material = \"own\"; node = \"mover\""),
     (
         "group",

@@ -15,6 +15,7 @@ SKY, SKY_RADIANCE, SKY_PNG = "sky.exr", "sky.hdr", "sky.png"
 NORMALS, HEIGHTS, HEIGHTS_FLOAT = "normals.png", "heights.png", "heights.exr"
 SPECTRUM = "paint.spd"
 OBJ, OBJ_BARE, OBJ_SMOOTH, PLY, PLY_BINARY, PLY_ATTRIBUTES, SERIALIZED = "block.obj", "bare.obj", "smooth.obj", "block.ply", "block-binary.ply", "painted.ply", "block.serialized"
+CLOUD, CLOUD_BOXED, TINTS, CLOUD_TINTED = "cloud.vol", "cloud-boxed.vol", "tints.vol", "cloud-tinted.vol"
 INCLUDED, INCLUDED_BSDF = "included.xml", "included-bsdf.xml"
 
 
@@ -55,6 +56,7 @@ def write(folder, mitsuba):
     save(HEIGHTS_FLOAT, heights.astype(numpy.float32))
     (folder / SPECTRUM).write_text("# wavelength and value\n400 0.1\n470 0.3\n550 0.25\n610 0.8\n720 0.7\n")
     _meshes(folder)
+    _volumes(folder)
     (folder / INCLUDED).write_text(
         '<scene version="3.0.0"><bsdf type="diffuse" id="paint"><rgb name="reflectance" value="0.2, 0.5, 0.7"/></bsdf></scene>'
     )
@@ -66,6 +68,22 @@ def _colours(width=4, height=4):
     """Every texel of another colour, no row or column alike, so that whatever mirrors or turns it shows."""
     random = numpy.random.default_rng(5)
     return 0.08 + 0.8 * random.random((height, width, 3))
+
+
+def _volumes(folder):
+    """Grids without a symmetry, whose borders are not empty."""
+    random = numpy.random.default_rng(11)
+    density = random.random((3, 4, 5, 1)) ** 2 * 3
+    _volume(folder / CLOUD, density)
+    _volume(folder / CLOUD_BOXED, density, (-1, -0.8, -0.6, 0.9, 1, 0.8))
+    _volume(folder / TINTS, 0.2 + 0.75 * random.random((2, 3, 2, 3)))
+    _volume(folder / CLOUD_TINTED, density * numpy.array([1, 0.6, 0.3]))
+
+
+def _volume(path, values, box=(0, 0, 0, 1, 1, 1)):
+    depth, height, width, channels = values.shape
+    head = b"VOL\3" + struct.pack("<5i6f", 1, width, height, depth, channels, *box)
+    path.write_bytes(head + values.astype("<f4").tobytes())
 
 
 def _sky():

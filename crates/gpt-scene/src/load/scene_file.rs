@@ -99,10 +99,11 @@ fn expand(document: &Document<'_>, file: &mut SceneFile, folder: &Path, access: 
         description.prefix_names(&format!("{}/", prefix(&imports, index)));
         replace_materials(document, entry, &format!("{}/", prefix(&imports, index)), &mut description)?;
         imported.warnings.extend(description.warnings(&entry.file.value, access.strict)?);
-        let SceneFile { camera, node, texture, material, shape, group, instance, light, .. } = description.file;
+        let SceneFile { camera, node, texture, medium, material, shape, group, instance, light, .. } = description.file;
         file.camera = file.camera.take().or(camera);
         file.node.extend(node);
         file.texture.extend(texture);
+        file.medium.extend(medium);
         file.material.extend(material);
         file.shape.extend(shape);
         file.group.extend(group);

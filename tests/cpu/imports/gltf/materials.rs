@@ -28,6 +28,43 @@ fn sheen_and_volumes_are_read() {
     assert_eq!((plain.sheen_color, plain.attenuation, plain.thin), (ColorInput::grey(0.0), None, false));
 }
 
+/// KHR_materials_volume_scatter: of what the attenuation takes, a share is scattered.
+#[test]
+fn volumes_scatter() {
+    let read = |scatter: Value, volume: Value| {
+        let mut file = File::new();
+        file.root["materials"][0]["extensions"] = json!({ "KHR_materials_transmission": { "transmissionFactor": 1.0 }, "KHR_materials_volume_scatter": scatter, "KHR_materials_volume": volume });
+        file.root["extensionsUsed"] =
+            json!(["KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_volume_scatter", "KHR_materials_volume"]);
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let scene = folder.valid("a.gltf");
+        assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+        scene
+    };
+    let volume = || json!({ "thicknessFactor": 1.0, "attenuationColor": [0.5, 0.25, 1.0], "attenuationDistance": 2.0 });
+    let milk = json!({ "multiscatterColor": [0.5, 1.0, 0.5], "scatterAnisotropy": -0.25 });
+    let scene = read(milk.clone(), volume());
+    assert_eq!(report(&scene), "");
+    let medium = &scene.media[scene.materials[0].interior.expect("a medium")];
+    let extinction = Spectrum::new(0.5_f64.ln() / -2.0, 0.25_f64.ln() / -2.0, 0.0);
+    assert!((medium.extinction() - extinction).map(f64::abs).max_component() < 1e-12, "{medium:?}");
+    // By the extension's formula, of 0.5 and of 1.
+    let albedo = [medium.scattering.r() / extinction.r(), medium.scattering.g() / extinction.g()];
+    assert!((albedo[0] - 0.911_708_85).abs() < 1e-8 && (albedo[1] - 1.0).abs() < 1e-9, "{albedo:?}");
+    assert_eq!(medium.phase, Phase::of(PhaseKind::HenyeyGreenstein { g: -0.25 }));
+    let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+    assert_eq!(principled.attenuation, None, "it would count twice");
+    // The controls: one that scatters nothing absorbs, and what cannot be is told.
+    let dark = read(json!({ "multiscatterColor": [0, 0, 0] }), volume());
+    assert!(dark.media.is_empty() && report(&dark).is_empty());
+    assert_ne!(picture(&dark), picture(&scene));
+    for volume in [json!({ "thicknessFactor": 1.0 }), json!({ "attenuationColor": [0.5, 0.5, 0.5], "attenuationDistance": 2.0 })]
+    {
+        let scene = read(milk.clone(), volume);
+        assert!(scene.media.is_empty() && report(&scene).contains("KHR_materials_volume_scatter"), "{}", report(&scene));
+    }
+}
+
 /// A coat has the normals of its own texture, and without one those of the surface, whatever bends the normals below it.
 #[test]
 fn coats_have_normal_maps_of_their_own() {

@@ -10,7 +10,9 @@ mod textures;
 
 use base64::Engine as _;
 use gpt::load::LoadOptions;
-use gpt::scene::{Attenuation, Channel, ChannelInput, ColorInput, Geometry, Light, MaterialKind, Mesh, Projection, Scene};
+use gpt::scene::{
+    Attenuation, Channel, ChannelInput, ColorInput, Geometry, Light, MaterialKind, Mesh, Phase, PhaseKind, Projection, Scene,
+};
 use gpt::spectrum::Spectrum;
 use serde_json::{Value, json};
 

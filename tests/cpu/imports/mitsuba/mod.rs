@@ -247,15 +247,15 @@ fn old_names_parameters_and_includes_are_understood() {
 fn nothing_is_left_out_silently() {
     let scene = read(
         r#"<shape type="sphere"><float name="foo" value="1"/><bsdf type="diffuse"/><medium type="homogeneous" name="interior"/></shape>
-        <shape type="hair"/><emitter type="collimated"/><medium type="homogeneous"/>"#,
+        <shape type="hair"/><emitter type="collimated"/><shape type="sphere"><bsdf type="null"/><medium type="homogeneous"/></shape>"#,
     );
     let report = report(&scene);
     for said in [
         "shape `sphere`: `foo` x1",
-        "medium `homogeneous` in shape",
+        "medium beside integrator `path`",
         "shape `hair`",
         "emitter `collimated`",
-        "medium `homogeneous` in scene",
+        "medium `homogeneous` in shape",
     ] {
         assert!(report.contains(said), "{said}:\n{report}");
     }

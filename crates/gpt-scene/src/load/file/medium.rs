@@ -17,7 +17,7 @@ use crate::spectrum::Spectrum;
 
 /// A medium that fills bodies (`interior` of a material) or the space around the camera (`medium` of the camera). Either `absorption` and
 /// `scattering` say how dense it is, or `albedo` and `mean_free_path` do. With `density` it differs from place to place.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "MediumEntry", extend(
     "dependentRequired" = {

@@ -76,7 +76,7 @@ macro_rules! objects {
 }
 
 /// Extensions that are read, and whether they are about the picture; what of them is not exact is in the report.
-pub const EXTENSIONS: [(&str, Role); 30] = [
+pub const EXTENSIONS: [(&str, Role); 31] = [
     ("KHR_lights_punctual", Role::Read),
     ("KHR_texture_transform", Role::Read),
     ("KHR_mesh_quantization", Role::Read),
@@ -90,6 +90,7 @@ pub const EXTENSIONS: [(&str, Role); 30] = [
     ("KHR_materials_specular", Role::Read),
     ("KHR_materials_transmission", Role::Read),
     ("KHR_materials_volume", Role::Read),
+    ("KHR_materials_volume_scatter", Role::Read),
     ("KHR_materials_clearcoat", Role::Read),
     ("KHR_materials_sheen", Role::Read),
     ("KHR_materials_anisotropy", Role::Read),
@@ -203,6 +204,7 @@ objects! {
         "KHR_materials_specular": SPECULAR,
         "KHR_materials_transmission": TRANSMISSION,
         "KHR_materials_volume": VOLUME,
+        "KHR_materials_volume_scatter": VOLUME_SCATTER,
         "KHR_materials_clearcoat": CLEARCOAT,
         "KHR_materials_sheen": SHEEN,
         "KHR_materials_anisotropy": ANISOTROPY,
@@ -239,6 +241,7 @@ objects! {
         read("attenuationDistance"),
         read("attenuationColor"),
     ];
+    VOLUME_SCATTER [read("multiscatterColor"), read("scatterAnisotropy")];
     CLEARCOAT [
         read("clearcoatFactor"),
         object("clearcoatTexture", &TEXTURE_INFO),

@@ -1,5 +1,6 @@
 //! Materials and their textures.
 
+mod scattering;
 mod see_through;
 
 use glam::DAffine2;
@@ -298,6 +299,9 @@ impl Surface<'_, '_> {
         }
         if self.has_volume() {
             self.attenuation(&mut keys)?;
+            self.scattering(&mut keys)?;
+        } else {
+            self.report_scattering("the surface encloses no volume that light gets into");
         }
         if has_sheen {
             let roughness = self.factor(SHEEN, "sheenRoughnessFactor", 0.0, "sheenRoughnessTexture", Channel::A)?;

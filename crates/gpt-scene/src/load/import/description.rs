@@ -33,6 +33,7 @@ pub struct Description {
     group_names: Names,
     material_names: Names,
     texture_names: Names,
+    medium_names: Names,
     node_names: Names,
 }
 
@@ -151,9 +152,25 @@ impl Description {
         placed.map(|(position, _)| map.transform_point3(position.as_dvec3())).collect()
     }
 
+    /// The lower and upper corner of a box around a shape as its transform places it; None of what is infinite or comes from a file.
+    pub fn bounds_of(&self, shape: &ShapeEntry) -> Option<[DVec3; 2]> {
+        let map = map_of(shape.common().transform);
+        let points = match mesh_of(shape) {
+            Some(_) => self.points_of_shape(shape),
+            None => outline(shape).into_iter().map(|point| map.transform_point3(point)).collect(),
+        };
+        let low = points.iter().copied().reduce(DVec3::min)?;
+        Some([low, points.into_iter().fold(low, DVec3::max)])
+    }
+
     /// A name for a material that no other has, as near to the wanted one as can be.
     pub fn free_material_name(&mut self, wanted: &str) -> String {
         self.material_names.free(wanted)
+    }
+
+    /// A name for a medium that no other has.
+    pub fn free_medium_name(&mut self, wanted: &str) -> String {
+        self.medium_names.free(wanted)
     }
 
     /// A name for a node that no other has.

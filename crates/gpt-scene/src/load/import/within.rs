@@ -3,11 +3,13 @@
 use glam::{DAffine3, DVec3};
 
 use super::description::{Description, map_of};
+use super::maps::is_uniform;
 use crate::load::file::light::LightEntry;
 use crate::load::file::node::NodeEntry;
 use crate::load::file::shape::{ShapeEntry, TransformEntry};
 use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
 use crate::load::place::Place;
+use crate::spectrum::Spectrum;
 
 impl Description {
     /// Moves all of it; `place` says where the map is stated.
@@ -20,6 +22,16 @@ impl Description {
             *transform = TransformEntry::of_map(&(*map * map_of(transform.as_ref())), place)?;
         }
         self.transform_nodes(map, place)?;
+        self.scale_media(map.matrix3.determinant().abs().cbrt())?;
+        self.move_grids(map, place)?;
+        if !self.file.medium.is_empty() && !is_uniform(map) {
+            let instead = "they are as dense as under an even scale of the same volume";
+            self.report.approximate(
+                "media of an import that is scaled unevenly",
+                self.file.medium[0].name.place.to_string(),
+                instead,
+            );
+        }
         if let Some(camera) = &mut self.file.camera {
             move_point(map, &mut camera.position)?;
             move_point(map, &mut camera.look_at.value)?;
@@ -52,6 +64,35 @@ impl Description {
         if let (None, Some(light)) = (upright, self.file.light.iter().find(is_map)) {
             let instead = "it stands upright as before";
             self.report.approximate("environment map of a scene that is turned over", light.place.to_string(), instead);
+        }
+        Ok(())
+    }
+
+    /// Keeps what light loses on its way through bodies that are this many times as large.
+    fn scale_media(&mut self, factor: f64) -> Result<(), String> {
+        let scaled = |spectrum: &mut Spectrum, by: f64| {
+            *spectrum *= by;
+            let well = spectrum.max_component().is_finite();
+            well.then_some(()).ok_or_else(|| "the map makes media denser than numbers can say".to_owned())
+        };
+        for medium in &mut self.file.medium {
+            for value in [&mut medium.absorption, &mut medium.scattering].into_iter().flatten() {
+                scaled(&mut value.value.0, 1.0 / factor)?;
+            }
+            medium.emission.as_mut().map_or(Ok(()), |value| scaled(&mut value.0, 1.0 / factor))?;
+            medium.mean_free_path.as_mut().map_or(Ok(()), |value| scaled(&mut value.value.0, factor))?;
+        }
+        Ok(())
+    }
+
+    /// Moves grids, which stand in the space of the scene.
+    fn move_grids(&mut self, map: &DAffine3, place: &Place) -> Result<(), String> {
+        for medium in &mut self.file.medium {
+            let grids = [&mut medium.density, &mut medium.albedo_grid, &mut medium.emission_grid, &mut medium.temperature];
+            for grid in grids.into_iter().flatten() {
+                let transform = &mut grid.value.transform;
+                *transform = TransformEntry::of_map(&(*map * map_of(transform.as_ref())), place)?;
+            }
         }
         Ok(())
     }
@@ -118,7 +159,9 @@ impl Description {
             add(&mut material.common_mut().name.value);
             material.each_texture(&mut |name| add(name));
             material.parts_mut().iter_mut().for_each(|part| add(&mut part.value));
+            add_to(material.common_mut().interior);
         }
+        self.file.medium.iter_mut().for_each(|medium| add(&mut medium.name.value));
         let of_groups = self.file.group.iter_mut().flat_map(|group| &mut group.shape);
         for shape in self.file.shape.iter_mut().chain(of_groups) {
             let common = shape.value.common_mut();
@@ -138,7 +181,10 @@ impl Description {
             add(&mut node.value.name.value);
             add_to(&mut node.value.parent);
         }
-        self.file.camera.iter_mut().for_each(|camera| add_to(&mut camera.node));
+        if let Some(camera) = &mut self.file.camera {
+            add_to(&mut camera.node);
+            add_to(&mut camera.medium);
+        }
         for light in &mut self.file.light {
             light.value.node_mut().into_iter().for_each(add_to);
             light.value.texture_mut().into_iter().for_each(|texture| add(&mut texture.value.0));
@@ -165,4 +211,37 @@ fn turn_about_y(map: &DAffine3) -> Option<f64> {
     let (x, y) = (map.matrix3.x_axis.normalize_or_zero(), map.matrix3.y_axis.normalize_or_zero());
     let upright = (y - DVec3::Y).length() < 1e-9 && map.matrix3.determinant() > 0.0;
     upright.then(|| (-x.z).atan2(x.x).to_degrees())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::file::Document;
+
+    #[test]
+    fn media_keep_their_optical_depth_and_get_the_prefix() {
+        let text = "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\nmedium = \"fog\"\n\
+            [[medium]]\nname = \"fog\"\nabsorption = 1\nscattering = 2\nemission = 3\n\
+            [[medium]]\nname = \"milk\"\nalbedo = 0.5\nmean_free_path = 4\n\
+            [[material]]\nname = \"skin\"\ntype = \"pass\"\ninterior = \"milk\"\n";
+        let file = Document::new("a.toml", text).read_whole().expect("a scene");
+        let mut description = Description::default();
+        description.file = file;
+        description.transform_by(&DAffine3::from_scale(DVec3::splat(2.0)), &(0..1).into()).expect("it is in range");
+        description.prefix_names("a/");
+        let file = &mut description.file;
+        let red = |spectrum: Spectrum| spectrum.max_component();
+        let [fog, milk] = &file.medium[..] else { panic!("two media") };
+        let of = |value: &Option<Located<_>>| {
+            value.as_ref().map(|value: &Located<crate::load::file::colour::Rgb<_>>| red(value.value.0))
+        };
+        assert_eq!([of(&fog.absorption), of(&fog.scattering)], [Some(0.5), Some(1.0)]);
+        assert_eq!(fog.emission.as_ref().map(|value| red(value.0)), Some(1.5));
+        assert_eq!(milk.mean_free_path.as_ref().map(|value| red(value.value.0)), Some(8.0));
+        assert_eq!(milk.albedo.as_ref().map(|value| red(value.value.0)), Some(0.5));
+        assert_eq!([&*fog.name.value, &*milk.name.value], ["a/fog", "a/milk"]);
+        let named = |name: &Option<Located<String>>| name.as_ref().map(|name| name.value.clone());
+        assert_eq!(named(file.material[0].common_mut().interior).as_deref(), Some("a/milk"));
+        assert_eq!(named(&file.camera.as_ref().expect("a camera").medium).as_deref(), Some("a/fog"));
+    }
 }

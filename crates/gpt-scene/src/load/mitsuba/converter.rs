@@ -9,6 +9,7 @@ use glam::DAffine3;
 
 use super::document::Reader;
 use super::input::Texels;
+use super::media::Media;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::file::shape::{ShapeEntry, TransformEntry};
@@ -42,8 +43,8 @@ pub struct Converter<'a> {
     pub clip: Option<Rc<Plugin>>,
     /// Materials that give light, by their keys.
     pub lamps: HashMap<String, String>,
-    /// The materials of shapes without a BSDF, without light and with it.
-    pub default_materials: [Option<usize>; 2],
+    /// The materials of shapes without a BSDF: without light, with it, and of boundaries of media.
+    pub default_materials: [Option<usize>; 3],
     pub textures: HashMap<(*const Plugin, bool, Texels, Option<usize>), Input>,
     /// Pictures that were made of others, by the file, whether its texels are linear and whether they are directions; None where the file says the same.
     pub made_pictures: HashMap<(PathBuf, bool, bool), Option<Arc<EmbeddedFile>>>,
@@ -64,6 +65,7 @@ pub struct Converter<'a> {
     /// Groups that instances have named, and the order in which they did first.
     pub groups: HashMap<*const Plugin, StoredGroup>,
     pub group_order: Vec<*const Plugin>,
+    pub media: Media,
 }
 
 /// A group of shapes that instances name.

@@ -57,6 +57,8 @@ pub struct Reader<'a> {
     parameters: Parameters,
     references: References,
     pub report: ImportReport,
+    /// The scene is written for a version before 2.
+    pub is_of_old: bool,
     included: usize,
     elements: u64,
     shapes: usize,
@@ -85,6 +87,7 @@ impl<'a> Reader<'a> {
             parameters: Parameters::new(definitions),
             references: References::default(),
             report: ImportReport::default(),
+            is_of_old: false,
             included: 0,
             elements: 0,
             shapes: 0,
@@ -127,6 +130,9 @@ impl<'a> Reader<'a> {
             ));
         }
         if root.tag_name().name() == "scene" {
+            if depth == 0 {
+                self.is_of_old = root.attribute("version").is_some_and(|version| version.trim().starts_with("0."));
+            }
             return self.plugin(source, root, depth);
         }
         // An included file may be a single plugin.

@@ -21,6 +21,8 @@ impl Converter<'_> {
     pub fn emitter(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
         plugin.visited.set(true);
         plugin.without_effect(&["sampling_weight", "id"]);
+        // The medium that a path is in is what counts, not what the emitter says.
+        let _ = plugin.children_of("medium");
         let entry = match plugin.name.as_str() {
             "point" => {
                 let position = match plugin.vector("position")? {

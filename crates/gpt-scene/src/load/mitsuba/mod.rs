@@ -13,6 +13,7 @@ mod emitter;
 mod handedness;
 mod input;
 mod limits;
+mod media;
 mod mesh_file;
 mod metals;
 mod nesting;
@@ -37,6 +38,7 @@ use glam::DAffine3;
 
 use self::converter::Converter;
 use self::document::Reader;
+use self::media::Media;
 use self::plugin::Plugin;
 use super::error::SceneError;
 use super::files::Files;
@@ -66,7 +68,7 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         both_sides: false,
         clip: None,
         lamps: HashMap::new(),
-        default_materials: [None; 2],
+        default_materials: [None; 3],
         textures: HashMap::new(),
         made_pictures: HashMap::new(),
         attributes: None,
@@ -78,6 +80,7 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         copies: HashMap::new(),
         groups: HashMap::new(),
         group_order: Vec::new(),
+        media: Media::default(),
     };
     converter.scene(&root, options)?;
     converter.report_unused(&root);
@@ -113,11 +116,12 @@ impl Converter<'_> {
                     self.emitter(plugin)?;
                 }
                 // They count where shapes name them.
-                "bsdf" | "texture" | "spectrum" | "sensor" => child.used.set(true),
+                "bsdf" | "texture" | "spectrum" | "sensor" | "medium" | "phase" | "volume" => child.used.set(true),
                 _ => {}
             }
         }
         self.finish_groups()?;
+        self.settle_media()?;
         self.report_clipped()
     }
 

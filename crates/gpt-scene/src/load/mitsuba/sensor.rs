@@ -27,6 +27,7 @@ impl Converter<'_> {
     /// Depth and roulette of the integrator.
     pub fn integrator(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
         plugin.visited.set(true);
+        self.media.note_integrator(plugin);
         plugin.without_effect(&[
             "strict_normals",
             "block_size",
@@ -166,6 +167,7 @@ impl Converter<'_> {
             }
             other => return Err(plugin.error(format!("the sensor `{other}` cannot be said here; a perspective one can"))),
         }
+        camera.medium = self.medium_around(plugin)?;
         self.scene.file.camera = Some(camera);
         Ok(())
     }

@@ -74,6 +74,7 @@ impl Converter<'_> {
         let (before, triangles) = (self.scene.file.shape.len(), self.triangles);
         self.placed_shape(group, DAffine3::IDENTITY, 1)?;
         let shapes = self.scene.file.shape.split_off(before);
+        self.forget_boundaries(before);
         let gives_light = |shape: &ShapeEntry| shape.common().material.is_some_and(|name| self.scene.gives_light(&name.value));
         let is_plain = |shape: &Located<ShapeEntry>| matches!(shape.value, ShapeEntry::Mesh(_)) && !gives_light(&shape.value);
         let only_meshes = shapes.iter().all(is_plain);
@@ -132,10 +133,12 @@ impl Converter<'_> {
         };
         let material = self.surface_material(plugin, bsdf.as_ref(), light);
         self.attributes = None;
-        let material = material?;
+        let boundary = self.boundary(plugin, bsdf.is_some())?;
+        let material = self.around_medium(plugin, material?, boundary.interior.as_ref())?;
         let common = shape.common_mut();
         *common.material = Some(plugin.at().at(material));
         *common.transform = self.transform(&map, plugin)?;
+        self.note_boundary(plugin, &shape, boundary);
         if self.scene.file.shape.len() >= MOST_SHAPES {
             return Err(too_many_shapes(&plugin.place));
         }

@@ -16,8 +16,8 @@ const PRESETS: [(&str, &str); 4] = [("gold", "Au"), ("copper", "Cu"), ("silver",
 impl<'w> Writer<'w> {
     /// Says a material; its place in reports.
     pub fn material(&mut self, material: &Keys<'_>) -> Result<String, SceneError> {
-        // Shapes say what it gives off.
-        for key in ["emission", "emission_two_sided", "radiance"] {
+        // Shapes say what it gives off and what it holds.
+        for key in ["emission", "emission_two_sided", "radiance", "interior", "attenuation_color", "attenuation_distance"] {
             let _ = material.contains_key(key);
         }
         let name = text(material, "name").unwrap_or_default().to_owned();

@@ -5,6 +5,7 @@
 
 mod keys;
 mod material;
+mod media;
 mod shape;
 mod xml;
 
@@ -14,6 +15,7 @@ use glam::DVec3;
 use toml::Table;
 
 use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
+use self::media::Surroundings;
 use self::xml::{Element, Xml};
 use super::scene_file::scene_text;
 use super::written::WrittenScene;
@@ -29,8 +31,10 @@ use crate::scene::{ImportReport, Scene};
 pub fn as_mitsuba(scene: &Scene, name: &str, target: &Path) -> Result<WrittenScene, SceneError> {
     let (text, files) = scene_text(scene, target, false);
     let tables: Table = text.parse().map_err(|error: toml::de::Error| SceneError::in_file(name, error.message().to_owned()))?;
-    let mut writer =
-        Writer { name, scene: &tables, original: scene, files, xml: Xml::default(), report: ImportReport::default() };
+    let surroundings = Surroundings::default();
+    let (xml, report) = (Xml::default(), ImportReport::default());
+    let mut writer = Writer { name, scene: &tables, original: scene, surroundings, files, xml, report };
+    writer.surroundings = writer.find_surroundings();
     writer.all()?;
     Ok(WrittenScene { text: writer.xml.finish(), files: writer.files.into_files(), report: writer.report })
 }
@@ -40,6 +44,7 @@ struct Writer<'w> {
     /// The scene as a scene file of ours.
     scene: &'w Table,
     original: &'w Scene,
+    surroundings: Surroundings,
     files: SideFiles,
     xml: Xml,
     report: ImportReport,
@@ -48,6 +53,7 @@ struct Writer<'w> {
 impl Writer<'_> {
     fn all(&mut self) -> Result<(), SceneError> {
         self.integrator();
+        self.media();
         self.sensor();
         for material in self.parts_first().into_iter().map(Keys::of) {
             let place = self.material(&material)?;
@@ -100,7 +106,9 @@ impl Writer<'_> {
         }
         let depth = render.and_then(|render| integer(render, "max_depth")).unwrap_or(16);
         let roulette = render.and_then(|render| integer(render, "roulette_depth")).unwrap_or(5);
-        let integrator = Element::new("integrator", "path")
+        // The roulette of volpathmis takes light away in version 3.9.1.
+        let kind = if self.has_media() { "volpath" } else { "path" };
+        let integrator = Element::new("integrator", kind)
             .integer("max_depth", if depth == 0 { -1 } else { depth })
             .integer("rr_depth", if roulette == 0 { 1_000_000 } else { roulette });
         let hides = render.and_then(|render| text(render, "emitters")) == Some("hidden");
@@ -182,8 +190,12 @@ impl Writer<'_> {
             }
         };
         sensor = sensor.with(sampler).with(film);
+        if let Some(medium) = self.medium_around_camera() {
+            sensor = sensor.reference(&medium);
+        }
         // Without motion the shutter has no effect; moving objects are reported by themselves.
         let _ = (camera.contains_key("shutter"), camera.contains_key("focus_distance"), camera.contains_key("aperture"));
+        let _ = camera.contains_key("medium");
         self.drop_rest(camera, "camera");
         self.xml.push(sensor);
     }

@@ -94,6 +94,12 @@ impl Element {
         self
     }
 
+    /// A reference that the plugin around calls by a name.
+    pub fn named_reference(mut self, name: &str, id: &str) -> Self {
+        self.body.push(format!("<ref name=\"{name}\" id=\"{}\"/>", escaped(id)));
+        self
+    }
+
     /// Steps as XML.
     pub fn transform(mut self, name: &str, steps: &str) -> Self {
         self.body.push(format!("<transform name=\"{name}\">{steps}</transform>"));

@@ -88,6 +88,7 @@ pub struct CommonKeysMut<'a> {
     pub emission: &'a mut Option<Located<Colour<NonNegative>>>,
     pub emission_two_sided: &'a mut Option<Located<bool>>,
     pub two_sided: &'a mut Option<Located<bool>>,
+    pub interior: &'a mut Option<Located<String>>,
 }
 
 /// Declares a material's `Keys`: its own and those that every material has. Serde cannot tell unknown keys from those of a struct within.
@@ -164,6 +165,7 @@ macro_rules! material_keys {
                     emission: &mut self.emission,
                     emission_two_sided: &mut self.emission_two_sided,
                     two_sided: &mut self.two_sided,
+                    interior: &mut self.interior,
                 }
             }
 

@@ -23,10 +23,11 @@ impl Surface<'_, '_> {
     fn over_nothing(&mut self, mut entry: MaterialEntry, share: BlendWeightEntry, what: &str) -> MaterialEntry {
         let part = entry.common_mut();
         let (normal_map, normal_scale) = (part.normal_map.take(), part.normal_scale.take());
+        let interior = part.interior.take();
         let emission = if what == "front" { (part.emission.take(), part.emission_two_sided.take()) } else { (None, None) };
         let mut mixed = self.mixed(entry, share, what);
         let whole = mixed.common_mut();
-        (*whole.normal_map, *whole.normal_scale) = (normal_map, normal_scale);
+        (*whole.normal_map, *whole.normal_scale, *whole.interior) = (normal_map, normal_scale, interior);
         (*whole.emission, *whole.emission_two_sided) = emission;
         mixed
     }

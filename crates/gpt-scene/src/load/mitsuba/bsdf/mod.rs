@@ -35,6 +35,7 @@ impl Converter<'_> {
     ) -> Result<String, SceneError> {
         let made = match bsdf {
             Some(bsdf) => self.bsdf(bsdf, 0)?,
+            None if self.is_bare_boundary(shape) => self.bare_boundary(&shape.at()),
             None => shape.possible(self.default_bsdf(light.is_some(), &shape.at()))?,
         };
         let plain = self.name_of(made);
@@ -79,6 +80,19 @@ impl Converter<'_> {
         let made = self.scene.file.material.len() - 1;
         self.default_materials[usize::from(is_emitter)] = Some(made);
         Ok(made)
+    }
+
+    /// The boundary of a medium, which is not there itself.
+    fn bare_boundary(&mut self, place: &Place) -> usize {
+        if let Some(known) = self.default_materials[2] {
+            return known;
+        }
+        let mut entry = nothing();
+        *entry.common_mut().name = place.at(self.scene.free_material_name("(no bsdf, a boundary)"));
+        self.scene.file.material.push(entry);
+        let made = self.scene.file.material.len() - 1;
+        self.default_materials[2] = Some(made);
+        made
     }
 
     /// The material of a BSDF, made once.

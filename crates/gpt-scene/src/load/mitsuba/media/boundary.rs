@@ -1,0 +1,250 @@
+//! Where media are: behind and before the surfaces of shapes.
+//!
+//! There a shape says what is on both of its sides, and one that says nothing leaves a path in the medium that it is in. Here a body says what it
+//! holds, and is within whatever is around it. So what is around a shape is found by the boxes around all of them, and what a shape says otherwise
+//! is reported.
+
+use std::rc::Rc;
+
+use glam::DVec3;
+
+use super::Media;
+use crate::load::error::SceneError;
+use crate::load::file::material::blend_weight::{BlendWeightEntry, FresnelWeight};
+use crate::load::file::material::{MaterialEntry, blend, mirror, pass};
+use crate::load::file::shape::ShapeEntry;
+use crate::load::mitsuba::converter::Converter;
+use crate::load::mitsuba::plugin::Plugin;
+
+/// Most pairs of shapes that are looked at to find which is within which.
+const MOST_PAIRS: usize = 1 << 24;
+
+/// The media on the sides of a shape.
+#[derive(Default)]
+pub struct Sides {
+    /// Behind its surface; none also where nothing would see it.
+    pub interior: Option<Rc<Plugin>>,
+    /// Before its surface.
+    exterior: Option<Rc<Plugin>>,
+    /// It says of a side what is there.
+    is_boundary: bool,
+}
+
+/// A shape that light goes through.
+pub struct Boundary {
+    plugin: Rc<Plugin>,
+    /// Its number in the scene.
+    shape: usize,
+    sides: Sides,
+    /// The lower and upper corner of the box around it; None of what is infinite.
+    bounds: Option<[DVec3; 2]>,
+}
+
+impl Boundary {
+    fn is_within(&self, other: &Self) -> bool {
+        let (Some([low, high]), Some([other_low, other_high])) = (self.bounds, other.bounds) else { return false };
+        let slack = (other_high - other_low) * 1e-6;
+        low.cmpge(other_low - slack).all() && high.cmple(other_high + slack).all() && self.volume() < other.volume()
+    }
+
+    /// A measure by which boxes are ordered, flat ones too.
+    fn volume(&self) -> f64 {
+        self.bounds.map_or(f64::INFINITY, |[low, high]| (high - low).length())
+    }
+}
+
+impl Media {
+    fn around_sensor(&self) -> Option<&Rc<Plugin>> {
+        self.around_sensor.as_ref()
+    }
+}
+
+impl Converter<'_> {
+    /// True of a shape of a version before 2 that bounds a medium by itself: it has no BSDF and no emitter.
+    pub fn is_bare_boundary(&self, shape: &Plugin) -> bool {
+        let is_boundary = shape.children.iter().any(|child| child.plugin.kind == "medium");
+        let gives_light = shape.children.iter().any(|child| child.plugin.kind == "emitter");
+        self.reader.is_of_old && is_boundary && !gives_light
+    }
+
+    /// The media that a shape names.
+    pub fn boundary(&mut self, shape: &Rc<Plugin>, has_bsdf: bool) -> Result<Sides, SceneError> {
+        let medium = |name: &str| shape.child(name).filter(|child| child.kind == "medium").cloned();
+        let (interior, exterior) = (medium("interior"), medium("exterior"));
+        let is_boundary = interior.is_some() || exterior.is_some();
+        if !is_boundary || self.leaves_media_out(shape) {
+            return Ok(Sides::default());
+        }
+        if !has_bsdf && !self.is_bare_boundary(shape) {
+            let instead = "nothing shows it: without a BSDF the shape is a diffuse surface, as in version 3.9.1; with `null` it would be a boundary alone";
+            self.drop(shape, "medium of a shape without a BSDF", instead);
+            return Ok(Sides::default());
+        }
+        Ok(Sides { interior, exterior, is_boundary })
+    }
+
+    /// The material of a shape, with what it encloses.
+    pub fn around_medium(
+        &mut self,
+        shape: &Rc<Plugin>,
+        material: String,
+        interior: Option<&Rc<Plugin>>,
+    ) -> Result<String, SceneError> {
+        let Some(interior) = interior else { return Ok(material) };
+        let medium = self.medium(interior)?;
+        self.filled(shape, material, medium)
+    }
+
+    /// A material like this one around a medium.
+    fn filled(&mut self, shape: &Plugin, material: String, medium: String) -> Result<String, SceneError> {
+        let key = (material, medium);
+        if let Some(known) = self.media.filled.get(&key) {
+            return Ok(known.clone());
+        }
+        let (material, medium) = &key;
+        // What was made last is asked for first.
+        let entry = self.scene.file.material.iter().rev().find(|entry| entry.name() == material.as_str());
+        let Some(mut entry) = entry.cloned() else { return Ok(material.clone()) };
+        if is_thin(&entry) {
+            entry = self.thin_wall(shape, &entry)?;
+        }
+        let name = self.scene.free_material_name(&format!("{material}, around {medium}"));
+        let common = entry.common_mut();
+        *common.name = shape.at().at(name.clone());
+        *common.interior = Some(shape.at().at(medium.clone()));
+        self.scene.file.material.push(entry);
+        self.scene.material_variants.insert(name.clone(), material.clone());
+        self.media.filled.insert(key, name.clone());
+        Ok(name)
+    }
+
+    /// A wall without thickness as two mirrors before each other, by each of which light passes as by a face of glass: rays go through it and shadow
+    /// rays too, into the medium and out of it.
+    fn thin_wall(&mut self, shape: &Plugin, wall: &MaterialEntry) -> Result<MaterialEntry, SceneError> {
+        let (ior, reflectance) = match wall {
+            MaterialEntry::Glass(keys) => (keys.ior.as_ref().map(|ior| ior.value), keys.reflectance.clone()),
+            _ => (None, None),
+        };
+        let instead = "it reflects as its two faces do, but for the light between them: up to 5 % too much at grazing angles; and what goes through has no tint";
+        self.approximate(shape, "thin wall around a medium", instead);
+        let place = shape.at();
+        let mut add = |wanted: &str, mut entry: MaterialEntry| {
+            let name = self.scene.free_material_name(wanted);
+            *entry.common_mut().name = place.at(name.clone());
+            self.scene.file.material.push(entry);
+            name
+        };
+        let mirror = add("face of a thin wall", MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }));
+        let nothing = add("behind a thin wall", MaterialEntry::Pass(pass::Keys::default()));
+        // The weight is what passes.
+        let over = |behind: String| {
+            let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
+            MaterialEntry::Blend(blend::Keys::of([behind, mirror.clone()], weight, &place))
+        };
+        let second = add("second face of a thin wall", over(nothing));
+        Ok(over(second))
+    }
+
+    /// Notes a shape that is to be added to the scene.
+    pub fn note_boundary(&mut self, plugin: &Rc<Plugin>, entry: &ShapeEntry, sides: Sides) {
+        let material = entry.common().material.map(|name| name.value.clone());
+        let is_seen_through = sides.is_boundary || material.is_some_and(|name| self.is_body(&name));
+        if is_seen_through {
+            let bounds = self.scene.bounds_of(entry);
+            let shape = self.scene.file.shape.len();
+            self.media.boundaries.push(Boundary { plugin: plugin.clone(), shape, sides, bounds });
+        }
+    }
+
+    /// Forgets those from this number on: they are parts of a group. What is around those is not looked for.
+    pub fn forget_boundaries(&mut self, before: usize) {
+        let (kept, of_group): (Vec<Boundary>, Vec<Boundary>) =
+            std::mem::take(&mut self.media.boundaries).into_iter().partition(|boundary| boundary.shape < before);
+        self.media.boundaries = kept;
+        for boundary in of_group {
+            let around = self.media.around_sensor().cloned();
+            self.report_exterior(&boundary, around.as_ref());
+        }
+    }
+
+    /// Gives bodies that say nothing the medium around them, and reports what is not around a shape though it says so.
+    pub fn settle_media(&mut self) -> Result<(), SceneError> {
+        let boundaries = std::mem::take(&mut self.media.boundaries);
+        if !boundaries.iter().any(|boundary| boundary.sides.is_boundary) && self.media.around_sensor.is_none() {
+            return Ok(());
+        }
+        let mut hulls: Vec<&Boundary> = boundaries.iter().filter(|boundary| boundary.sides.is_boundary).collect();
+        if hulls.len().saturating_mul(boundaries.len()) > MOST_PAIRS {
+            hulls.clear();
+        }
+        hulls.sort_by(|a, b| a.volume().total_cmp(&b.volume()));
+        for boundary in &boundaries {
+            let hull = hulls.iter().find(|hull| boundary.is_within(hull));
+            let around = match hull {
+                Some(hull) => hull.sides.interior.clone(),
+                None => self.media.around_sensor().cloned(),
+            };
+            if boundary.sides.is_boundary {
+                self.report_exterior(boundary, around.as_ref());
+            }
+            let medium = match (&boundary.sides.interior, boundary.sides.is_boundary, &around) {
+                (Some(_), ..) | (None, false, None) => continue,
+                (None, true, _) => self.clear_medium(&boundary.plugin),
+                (None, false, Some(around)) => self.medium(around)?,
+            };
+            let material = self.scene.file.shape[boundary.shape].value.common().material.cloned();
+            if let Some(material) = material {
+                let filled = self.filled(&boundary.plugin, material.value, medium)?;
+                *self.scene.file.shape[boundary.shape].value.common_mut().material = Some(boundary.plugin.at().at(filled));
+            }
+        }
+        Ok(())
+    }
+
+    fn report_exterior(&mut self, boundary: &Boundary, around: Option<&Rc<Plugin>>) {
+        let exterior = boundary.sides.exterior.as_ref();
+        let is_same = match (exterior, around) {
+            (None, None) => true,
+            (Some(exterior), Some(around)) => Rc::ptr_eq(exterior, around),
+            _ => false,
+        };
+        if !is_same {
+            let said = exterior.map_or("no medium outside of a shape", |_| "exterior medium of a shape");
+            let instead = match around {
+                Some(_) => "the medium counts that the shapes and the sensor around it say",
+                None => "nothing is around it, as the shapes and the sensor around it say",
+            };
+            self.approximate(&boundary.plugin, said, instead);
+        }
+    }
+
+    /// Light gets into bodies of this material, which bends it.
+    fn is_body(&mut self, name: &str) -> bool {
+        if let Some(known) = self.media.bodies.get(name) {
+            return *known;
+        }
+        // Blends share their parts: each is looked at once. What was made last is asked for first.
+        let entry = self.scene.file.material.iter().rev().find(|entry| entry.name() == name);
+        let is_body = match entry {
+            Some(entry @ (MaterialEntry::Glass(_) | MaterialEntry::RoughGlass(_))) => !is_thin(entry),
+            Some(entry @ MaterialEntry::Principled(keys)) => keys.transmission.is_some() && !is_thin(entry),
+            Some(entry) => {
+                let parts: Vec<String> = entry.parts().iter().map(|part| part.value.clone()).collect();
+                parts.iter().any(|part| self.is_body(part))
+            }
+            None => false,
+        };
+        self.media.bodies.insert(name.to_owned(), is_body);
+        is_body
+    }
+}
+
+fn is_thin(entry: &MaterialEntry) -> bool {
+    let thin = match entry {
+        MaterialEntry::Glass(keys) => return keys.thin,
+        MaterialEntry::RoughGlass(_) => return false,
+        MaterialEntry::Principled(keys) => keys.thin.as_ref(),
+        _ => None,
+    };
+    thin.is_some_and(|thin| thin.value)
+}

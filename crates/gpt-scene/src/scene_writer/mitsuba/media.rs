@@ -1,0 +1,312 @@
+//! Media, and where they are.
+//!
+//! A shape of ours says what it holds, and is within whatever is around it; there it says both. So what is around a shape is found by the boxes around
+//! all of them.
+
+use std::collections::HashSet;
+
+use glam::{DAffine3, DVec3};
+use toml::Table;
+
+use super::Writer;
+use super::keys::{entries, table, text};
+use super::xml::{Element, matrix};
+use crate::load::volume::write_mitsuba;
+use crate::math::is_upright;
+use crate::scene::{
+    ColorInput, Geometry, Material, MaterialId, MaterialKind, Medium, MediumGrids, MediumId, Outside, Phase, PhaseKind,
+    PhaseLobe, Shape, Volume, VolumeFilter, VoxelGrid,
+};
+use crate::spectrum::Spectrum;
+
+/// Where a shape is and what it holds.
+struct Hull {
+    bounds: [DVec3; 2],
+    /// None: nothing.
+    holds: Option<String>,
+}
+
+impl Hull {
+    fn size(&self) -> f64 {
+        self.bounds[0].distance(self.bounds[1])
+    }
+}
+
+/// The bodies of a scene, by which it is found what is around a shape.
+#[derive(Default)]
+pub struct Surroundings {
+    /// The smallest first.
+    hulls: Vec<Hull>,
+    around_camera: Option<String>,
+    /// By material: something else is within its surfaces than around them. Empty where the scene has no media.
+    is_hull: Vec<bool>,
+}
+
+impl Writer<'_> {
+    /// Whether a path meets media.
+    pub fn has_media(&self) -> bool {
+        let is_filled = |material: &Material| material.interior.is_some() || absorbs(&material.kind).is_some();
+        self.original.camera_medium.is_some() || self.original.materials.iter().any(is_filled)
+    }
+
+    /// Writes all media, those of bodies that absorb too.
+    pub fn media(&mut self) {
+        let tables = entries(self.scene, "medium");
+        for (medium, keys) in self.original.media.iter().zip(tables) {
+            let name = text(keys, "name").unwrap_or_default();
+            let place = format!("medium `{name}`");
+            if !medium.emission.is_black() {
+                self.drop("emission of a medium", &place, "it gives off no light");
+            }
+            let element = match &medium.grids {
+                Some(grids) => self.heterogeneous(medium, grids, keys, &place),
+                None => homogeneous(medium.absorption, medium.scattering),
+            };
+            self.xml.push(element.id(&medium_id(name)).with(phase(&medium.phase)));
+        }
+        for (id, material) in self.original.materials.iter().enumerate() {
+            if let Some(absorption) = absorbs(&material.kind) {
+                self.xml.push(homogeneous(absorption, Spectrum::BLACK).id(&body_id(id)));
+            }
+        }
+    }
+
+    /// A colour that is lost at different rates is in the voxels.
+    fn heterogeneous(&mut self, medium: &Medium, grids: &MediumGrids, keys: &Table, place: &str) -> Element {
+        let (density, extinction) = (grids.density(), medium.extinction());
+        let of_key = |key: &str| table(keys, key).cloned().unwrap_or_default();
+        let strongest = extinction.max_component();
+        let goes_on = match density.outside {
+            Outside::Border => true,
+            Outside::Constant(value) => !value.is_black(),
+        };
+        if goes_on {
+            self.drop("density of a medium outside of its grid", place, "it ends with the grid");
+        }
+        if !is_upright(&density.to_index) {
+            let instead = "what its border has goes on to the corners of an upright box around it";
+            self.approximate("density of a medium whose grid is turned", place, instead);
+        }
+        let is_grey = extinction.min_component() == strongest;
+        let tint = (!is_grey).then(|| extinction / strongest);
+        let element = Element::new("medium", "heterogeneous").float("scale", strongest * density.scale);
+        let element = element.with(self.grid("sigma_t", (density, &of_key("density")), tint));
+        match grids.albedo() {
+            Some(albedo) => {
+                if matches!(albedo.outside, Outside::Constant(_)) {
+                    self.approximate("albedo of a medium outside of its grid", place, "it goes on as it is at the border");
+                }
+                element.with(self.grid(
+                    "albedo",
+                    (albedo, &of_key("albedo_grid")),
+                    Some(Spectrum::grey(albedo.scale)).filter(|scale| *scale != Spectrum::WHITE),
+                ))
+            }
+            None => element.rgb("albedo", share_scattered(medium.scattering, extinction)),
+        }
+    }
+
+    /// A grid as a volume, whose values are multiplied by a colour; its file lies beside the scene.
+    fn grid(&mut self, name: &str, (volume, keys): (&Volume, &Table), tint: Option<Spectrum>) -> Element {
+        let written = text(keys, "file").filter(|file| tint.is_none() && file.to_ascii_lowercase().ends_with(".vol"));
+        let file = match written {
+            // The box that the file states does not count there.
+            Some(file) => self.file(file),
+            None => {
+                let content = tint.map_or_else(|| (*volume.grid).clone(), |tint| tinted(&volume.grid, tint));
+                let content = write_mitsuba(&content, DVec3::ZERO, DVec3::ONE);
+                self.files.add_file(&format!("{name}-{}.vol", self.files.len() + 1), content)
+            }
+        };
+        let size = DVec3::from_array(volume.grid.resolution().map(f64::from));
+        let to_world = volume.to_index.inverse() * DAffine3::from_scale(size);
+        let filter = if volume.filter == VolumeFilter::Nearest { "nearest" } else { "trilinear" };
+        Element::new("volume", "gridvolume")
+            .named(name)
+            .string("filename", &file)
+            .string("filter_type", filter)
+            .transform("to_world", &matrix(&to_world))
+    }
+
+    /// The id of the medium around the camera.
+    pub fn medium_around_camera(&self) -> Option<String> {
+        self.original.camera_medium.map(|id| self.medium_named(id))
+    }
+
+    fn medium_named(&self, id: MediumId) -> String {
+        let tables = entries(self.scene, "medium");
+        medium_id(tables.get(id).and_then(|table| text(*table, "name")).unwrap_or_default())
+    }
+
+    /// What stands around what.
+    pub fn find_surroundings(&self) -> Surroundings {
+        if !self.has_media() {
+            return Surroundings::default();
+        }
+        let is_hull = self.original.materials_that(is_hull);
+        let bodies = self.original.shapes.iter().filter(|shape| is_hull[shape.material]);
+        let hull = |shape: &Shape| Some(Hull { bounds: bounds(shape)?, holds: self.held_by(shape.material) });
+        let mut hulls: Vec<Hull> = bodies.filter_map(hull).collect();
+        hulls.sort_by(|a, b| a.size().total_cmp(&b.size()));
+        Surroundings { hulls, around_camera: self.medium_around_camera(), is_hull }
+    }
+
+    /// The shape with what it holds and what is around it.
+    pub fn with_media(&self, element: Element, shape: Option<&Shape>) -> Element {
+        let is_hull = |shape: &&Shape| self.surroundings.is_hull.get(shape.material) == Some(&true);
+        let Some(shape) = shape.filter(is_hull) else { return element };
+        let interior = self.held_by(shape.material);
+        let exterior = self.surroundings.around(bounds(shape));
+        let element = match &interior {
+            Some(id) => element.named_reference("interior", id),
+            None => element,
+        };
+        match exterior {
+            Some(id) => element.named_reference("exterior", id),
+            None => element,
+        }
+    }
+
+    /// The medium within bodies of a material; a blend has that of the first part with one.
+    fn held_by(&self, id: MaterialId) -> Option<String> {
+        let mut to_visit = vec![id];
+        let mut seen = HashSet::new();
+        while let Some(id) = to_visit.pop() {
+            if !seen.insert(id) {
+                continue;
+            }
+            let material = &self.original.materials[id];
+            if let Some(medium) = material.interior {
+                return Some(self.medium_named(medium));
+            }
+            if absorbs(&material.kind).is_some() {
+                return Some(body_id(id));
+            }
+            to_visit.extend(material.parts().iter().rev());
+        }
+        None
+    }
+}
+
+impl Surroundings {
+    /// The id of the medium around a box.
+    fn around(&self, bounds: Option<[DVec3; 2]>) -> Option<&str> {
+        let hull = bounds.and_then(|[low, high]| {
+            self.hulls.iter().find(|hull| {
+                let slack = (hull.bounds[1] - hull.bounds[0]) * 1e-6;
+                let is_within = low.cmpge(hull.bounds[0] - slack).all() && high.cmple(hull.bounds[1] + slack).all();
+                is_within && low.distance(high) < hull.size()
+            })
+        });
+        hull.map_or(self.around_camera.as_deref(), |hull| hull.holds.as_deref())
+    }
+}
+
+/// Something else is within surfaces of the material itself than around them.
+fn is_hull(material: &Material) -> bool {
+    let is_body = match &material.kind {
+        MaterialKind::Glass { thin, .. } | MaterialKind::RoughGlass { thin, .. } => !thin,
+        MaterialKind::Principled(principled) => !principled.thin && principled.transmission != ColorInput::grey(0.0),
+        _ => false,
+    };
+    material.interior.is_some() || is_body
+}
+
+/// The share of light that a body of glass absorbs per unit length, where its material says so.
+fn absorbs(kind: &MaterialKind) -> Option<Spectrum> {
+    let MaterialKind::Principled(principled) = kind else { return None };
+    principled.attenuation.map(|attenuation| attenuation.extinction())
+}
+
+/// No material and no group has this name.
+pub fn medium_id(name: &str) -> String {
+    format!("medium {name}")
+}
+
+/// The medium within a body that absorbs.
+fn body_id(material: MaterialId) -> String {
+    format!("medium of material {material}")
+}
+
+/// A colour above 1 has to be a volume's there.
+fn homogeneous(absorption: Spectrum, scattering: Spectrum) -> Element {
+    let extinction = absorption + scattering;
+    let element = Element::new("medium", "homogeneous").rgb("albedo", share_scattered(scattering, extinction));
+    if extinction.min_component() == extinction.max_component() {
+        return element.float("sigma_t", extinction.r());
+    }
+    element.with(Element::new("volume", "constvolume").named("sigma_t").rgb("value", extinction))
+}
+
+/// The albedo; 0 where nothing is lost.
+fn share_scattered(scattering: Spectrum, extinction: Spectrum) -> Spectrum {
+    let share = |scattered: f64, lost: f64| if lost > 0.0 { scattered / lost } else { 0.0 };
+    let ([red, green, blue], lost) = (scattering.to_rgb(), extinction.to_rgb());
+    Spectrum::new(share(red, lost[0]), share(green, lost[1]), share(blue, lost[2]))
+}
+
+/// The grid with all values multiplied by a colour.
+fn tinted(grid: &VoxelGrid, tint: Spectrum) -> VoxelGrid {
+    let channels = grid.channels();
+    let factors = tint.to_rgb();
+    let is_grey = channels == 1 && tint.min_component() == tint.max_component();
+    let count = if is_grey { 1 } else { 3 };
+    let of_voxel = |voxel: &[f32]| -> Vec<f32> {
+        (0..count).map(|channel| (f64::from(voxel[channel.min(channels - 1)]) * factors[channel]) as f32).collect()
+    };
+    let values = grid.values().chunks_exact(channels).flat_map(of_voxel).collect();
+    // Factors of an albedo are at most 1, and those of a density too: its values stay possible.
+    VoxelGrid::new(grid.resolution(), count, values).unwrap_or_else(|_| grid.clone())
+}
+
+/// Two at a time, each blend of what is before and of the next.
+fn phase(Phase(lobes): &Phase) -> Element {
+    let of_kind = |kind: PhaseKind| match kind {
+        PhaseKind::HenyeyGreenstein { g: 0.0 } => Element::new("phase", "isotropic"),
+        PhaseKind::HenyeyGreenstein { g } => Element::new("phase", "hg").float("g", g),
+        PhaseKind::Rayleigh => Element::new("phase", "rayleigh"),
+    };
+    let mut so_far = 0.0;
+    let mut made: Option<Element> = None;
+    for PhaseLobe { weight, kind } in lobes {
+        so_far += weight;
+        let own = of_kind(*kind);
+        made = Some(match made {
+            Some(before) => Element::new("phase", "blendphase").float("weight", weight / so_far).with(before).with(own),
+            None => own,
+        });
+    }
+    made.unwrap_or_else(|| Element::new("phase", "isotropic"))
+}
+
+/// A box around a shape; None of what is infinite.
+fn bounds(shape: &Shape) -> Option<[DVec3; 2]> {
+    let map = shape.transform.to_affine();
+    let of_points = |points: &mut dyn Iterator<Item = DVec3>| {
+        let mut placed = points.map(|point| map.transform_point3(point));
+        let first = placed.next()?;
+        Some(placed.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]))
+    };
+    let of_box = |low: DVec3, high: DVec3| {
+        let corner = |index: usize| DVec3::select(glam::BVec3::new(index & 1 != 0, index & 2 != 0, index & 4 != 0), high, low);
+        of_points(&mut (0..8).map(corner))
+    };
+    match &shape.geometry {
+        Geometry::Mesh(mesh) => of_points(&mut mesh.positions.iter().map(|position| position.as_dvec3())),
+        Geometry::Sphere(sphere) => of_box(sphere.center - sphere.radius, sphere.center + sphere.radius),
+        Geometry::Box(cuboid) => of_box(cuboid.min, cuboid.max),
+        Geometry::Cylinder(tube) => {
+            let [from, to] = [tube.from, tube.to];
+            of_box(from.min(to) - tube.radius, from.max(to) + tube.radius)
+        }
+        Geometry::Disk(disk) => of_box(disk.center - disk.radius, disk.center + disk.radius),
+        Geometry::Rectangle(sheet) => {
+            let far = sheet.corner + sheet.edge_u + sheet.edge_v;
+            of_points(&mut [sheet.corner, sheet.corner + sheet.edge_u, sheet.corner + sheet.edge_v, far].into_iter())
+        }
+        Geometry::Plane(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;
