@@ -168,9 +168,30 @@ def roulette():
     table("roulette", ["roulette", "error at 64 spp", "processor seconds", "time against none", "relative error at equal time"], rows)
 
 
+def fog():
+    """Distance sampling and equi-angular sampling in fog, by light samples alone and with the phase function."""
+    samples = [16, 64, 256]
+    ways = [
+        Way(f"`{places}`, {words}", ["--distance-sampling", places, "--estimator", estimator])
+        for places in ("distance", "equiangular", "mis")
+        for estimator, words in (("nee", "light samples alone"), ("mis", "with the phase function"))
+    ]
+    truths = references("foggy-lamps", ways[-1], 4096)
+    table("fog", heading("places, directions", samples), ways_by_samples("fog", "foggy-lamps", ways, samples, truths, 64))
+    montage("fog.jpg", 3, [("foggy-lamps", way, 16, "--sampler", "independent") for way in ways[::2] + ways[1::2]])
+
+
+def smoke():
+    """Light samples and phase functions in smoke that a grid describes."""
+    samples = [16, 64]
+    truths = references("bonfire", MIS, 2048)
+    table("smoke", heading("estimator", samples), ways_by_samples("smoke", "bonfire", [BSDF, NEE, MIS], samples, truths, 16))
+    montage("smoke.jpg", 3, [("bonfire", way, 64, "--size", "240x320", "--sampler", "independent") for way in (BSDF, NEE, MIS)])
+
+
 FIGURES = {
     figure.__name__: figure
-    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, extensions, integrals, importance, roulette, samplers)
+    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, extensions, integrals, importance, roulette, fog, smoke, samplers)
 }
 
 

@@ -2,10 +2,10 @@
 //!
 //! Coarse cells of a medium's grid bound its density, and a ray takes the parts of its way within them one after the other. A scattered path is
 //! tracked by null collisions (Woodcock and others 1965; Miller, Georgiev and Jarosz 2019): collisions are drawn as if the density were the bound,
-//! and one is real with the probability density / bound. The channel by which they are drawn is chosen by what the path carries, and since the
-//! probability that a collision is real is the same for all channels, the density of the whole flight under channel c is, up to a factor that all
-//! share, f = extinction_c^k · exp(−extinction_c · D), where k collisions were drawn and D is the integral of the bounds along the way. The channels
-//! share the flight by multiple importance sampling.
+//! and one is real with the probability density / bound. The channel by which they are drawn is chosen by what the path carries. The density of the
+//! whole flight under channel c is, up to a factor that all share, f = extinction_c^k · exp(−extinction_c · D) · p, where k collisions were drawn, D is
+//! the integral of the bounds along the way, and p the probability that each collision was what it was, real or null. What the channel carries on is
+//! as much, so the channels share the flight by multiple importance sampling: each weighs f over the mean of all f.
 //!
 //! The light that passes unscattered is estimated by residual ratio tracking (Novák, Selle and Jarosz 2014): the smallest density of a cell is taken away
 //! exactly, the rest at collisions. `shaders/shading/medium/tracking.wgsl` is the same in f32.
@@ -64,7 +64,7 @@ pub fn track(
     };
     let rate = filling.extinction.to_rgb()[channel];
     let mut depth_left = -draw().ln();
-    let (mut bounds, mut collisions) = (0.0, 0);
+    let (mut bounds, mut collisions, mut odds) = (0.0, 0, Spectrum::WHITE);
     for segment in grids.density().crossing(grids.majorants(), [ray.origin, ray.direction], [0.0, length.min(FARTHEST)]) {
         let mut at = segment.entry;
         loop {
@@ -77,25 +77,40 @@ pub fn track(
             bounds += depth_left / rate;
             at = (at + depth_left / (rate * segment.maximum)).min(segment.exit);
             collisions += 1;
-            let density = grids.density_in(segment.cell, ray.at(at));
-            if draw() * segment.maximum < density {
+            let real = grids.density_in(segment.cell, ray.at(at)) / segment.maximum;
+            let of_chosen = real.to_rgb()[channel];
+            if draw() < of_chosen {
+                odds = limited(odds * (real / of_chosen));
                 let scattered = filling.scattering / filling.extinction.max(Spectrum::grey(f64::MIN_POSITIVE));
                 let albedo = grids.albedo().map_or(Spectrum::WHITE, |albedo| albedo.value_at(ray.at(at)));
-                let weight = channel_weights(filling.extinction, chances, channel, (collisions, bounds)) * scattered * albedo;
+                let weight =
+                    channel_weights(filling.extinction, chances, channel, (collisions, bounds, odds)) * scattered * albedo;
                 return Flight { scattered_at: Some(at), weight };
             }
+            odds = limited(odds * ((Spectrum::WHITE - real) / (1.0 - of_chosen)));
             if collisions == MOST_LOOKUPS {
                 return Flight { scattered_at: None, weight: Spectrum::BLACK };
             }
             depth_left = -draw().ln();
         }
     }
-    Flight { scattered_at: None, weight: channel_weights(filling.extinction, chances, channel, (collisions, bounds)) }
+    Flight { scattered_at: None, weight: channel_weights(filling.extinction, chances, channel, (collisions, bounds, odds)) }
+}
+
+/// Odds that stay finite in single precision.
+fn limited(odds: Spectrum) -> Spectrum {
+    odds.clamp(Spectrum::BLACK, Spectrum::grey(1e30))
 }
 
 /// The density of a flight under each channel over the mean by the chances with which channels are chosen; 0 of channels that the path does not carry.
-fn channel_weights(extinction: Spectrum, chances: Spectrum, chosen: usize, (collisions, bounds): (u32, f64)) -> Spectrum {
-    let [extinction, chances] = [extinction, chances].map(Spectrum::to_rgb);
+/// `odds` are the probabilities of what collisions were, beside those by the chosen channel.
+fn channel_weights(
+    extinction: Spectrum,
+    chances: Spectrum,
+    chosen: usize,
+    (collisions, bounds, odds): (u32, f64, Spectrum),
+) -> Spectrum {
+    let [extinction, chances, odds] = [extinction, chances, odds].map(Spectrum::to_rgb);
     // Logarithms beside that of the chosen channel, so that equal channels weigh 1 to the last bit.
     let beside = |channel: usize| {
         if channel == chosen || extinction[channel] == extinction[chosen] {
@@ -109,7 +124,9 @@ fn channel_weights(extinction: Spectrum, chances: Spectrum, chosen: usize, (coll
     let carried = |channel: &usize| chances[*channel] > 0.0;
     let largest = (0..3).filter(carried).map(|channel| logarithms[channel]).fold(f64::NEG_INFINITY, f64::max);
     let of_channels: [f64; 3] =
-        std::array::from_fn(|channel| if carried(&channel) { (logarithms[channel] - largest).exp() } else { 0.0 });
+        std::array::from_fn(
+            |channel| if carried(&channel) { (logarithms[channel] - largest).exp() * odds[channel] } else { 0.0 },
+        );
     let mean: f64 = (0..3).map(|channel| chances[channel] * of_channels[channel]).sum();
     Spectrum::from_rgb(of_channels) / mean
 }
@@ -142,12 +159,13 @@ pub fn pass_through(
             }
             at = (at + depth_left / (rate * residual)).min(segment.exit);
             let place = ray.at(at);
-            let share = ((grids.density_in(segment.cell, place) - control) / residual).clamp(0.0, 1.0);
+            let density = grids.density_in(segment.cell, place);
+            let share = ((density - Spectrum::grey(control)) / residual).clamp(Spectrum::BLACK, Spectrum::WHITE);
             if emits {
                 let factor = grids.emission().map_or(Spectrum::WHITE, |emission| emission.value_at(place));
-                passage.given_off += passage.left * filling.emission * factor * (share / rate);
+                passage.given_off += passage.left * filling.emission * factor * share / rate;
             }
-            passage.left *= Spectrum::WHITE - filling.extinction * (share / rate);
+            passage.left *= Spectrum::WHITE - filling.extinction * share / rate;
             lookups += 1;
             if passage.left.max_component() < FAINT && !survives(&mut passage.left, draw()) || lookups == MOST_LOOKUPS {
                 passage.left = Spectrum::BLACK;

@@ -50,7 +50,6 @@ KNOWN = [
     (r"^sensor orthographic: to_world: shear$", "differs", "pictures are not sheared here"),
     (r"^rfilter (mitchell|catmullrom|lanczos): ", "differs", "filters have no negative parts here"),
     (r"^integrator depth: ", "differs", "paths are traced"),
-    (r"^medium heterogeneous: sigma_t: grid in colours$", "differs", "a density is one number here: the mean of red, green and blue"),
     (r"^volume gridvolume: to_world: turned by 30$", "differs", "nothing is outside of a grid's own box here; there its border goes on to the corners of an upright box"),
     (r"^phase tabphase: values: ahead$", "differs", "a table is Henyey's and Greenstein's phase function of its mean cosine here"),
     (r"^integrator prbvolpath: ", "refused there", "it is there in variants that differentiate alone"),

@@ -38,9 +38,14 @@ fn draw_depth(stream: ptr<function, Stream>) -> f32 {
     return -natural_log(draw(stream));
 }
 
+// Odds that stay finite.
+fn limited(odds: Spectrum) -> Spectrum {
+    return clamp(odds, BLACK, Spectrum(1.0e30));
+}
+
 // The density of a flight of so many collisions and this integral of bounds under each channel, over the mean by the chances with which channels are
-// chosen; 0 of channels that the path does not carry.
-fn channel_weights(extinction: Spectrum, chances: Spectrum, chosen: u32, collisions: u32, bounds: f32) -> Spectrum {
+// chosen; 0 of channels that the path does not carry. `odds` are the probabilities of what collisions were, beside those by the chosen channel.
+fn channel_weights(extinction: Spectrum, chances: Spectrum, chosen: u32, collisions: u32, bounds: f32, odds: Spectrum) -> Spectrum {
     let own = extinction[chosen];
     // Logarithms beside that of the chosen channel, so that equal channels weigh 1 to the last bit.
     var logarithms = BLACK;
@@ -56,7 +61,8 @@ fn channel_weights(extinction: Spectrum, chances: Spectrum, chosen: u32, collisi
     }
     let is_carried = chances > BLACK;
     let largest = max_component(select(Spectrum(-1.0e38), logarithms, is_carried));
-    let of_channels = select(BLACK, exp(max(logarithms - largest, Spectrum(-87.0))), is_carried & (logarithms - largest > Spectrum(-87.0)));
+    let counts = is_carried & (logarithms - largest > Spectrum(-87.0));
+    let of_channels = select(BLACK, exp(max(logarithms - largest, Spectrum(-87.0))) * odds, counts);
     return of_channels / dot(chances, of_channels);
 }
 
@@ -73,6 +79,7 @@ fn track(medium: Medium, throughput: Spectrum, ray: Ray, length_of_ray: f32, key
     var depth_left = draw_depth(&stream);
     var bounds = 0.0;
     var collisions = 0u;
+    var odds = WHITE;
     var crossing = begin_volume_crossing(volume, ray, length_of_ray);
     var segment = next_segment(volume, &crossing);
     var at = segment.entry;
@@ -88,20 +95,23 @@ fn track(medium: Medium, throughput: Spectrum, ray: Ray, length_of_ray: f32, key
         bounds += depth_left / rate;
         at = min(at + depth_left / (rate * segment.maximum), segment.exit);
         collisions++;
-        let density = density_in_segment(volume, segment, ray, at);
-        if draw(&stream) * segment.maximum < density {
+        let real = density_in_segment(volume, segment, ray, at) / segment.maximum;
+        let of_chosen = real[channel];
+        if draw(&stream) < of_chosen {
+            odds = limited(odds * (real / of_chosen));
             var albedo = medium.scattering / max(medium.extinction, Spectrum(1.0e-37));
             if (medium.flags & MEDIUM_HAS_ALBEDOS) != 0u {
                 albedo *= volume_value(load_volume(medium.first_volume + 1u), ray.origin + at * ray.direction);
             }
-            return TrackedFlight(true, at, albedo * channel_weights(medium.extinction, chances, channel, collisions, bounds));
+            return TrackedFlight(true, at, albedo * channel_weights(medium.extinction, chances, channel, collisions, bounds, odds));
         }
+        odds = limited(odds * ((WHITE - real) / (1.0 - of_chosen)));
         if collisions == MOST_LOOKUPS {
             return TrackedFlight(false, length_of_ray, BLACK);
         }
         depth_left = draw_depth(&stream);
     }
-    return TrackedFlight(false, length_of_ray, channel_weights(medium.extinction, chances, channel, collisions, bounds));
+    return TrackedFlight(false, length_of_ray, channel_weights(medium.extinction, chances, channel, collisions, bounds, odds));
 }
 
 // Estimates what a ray's first `length_of_ray` through a medium with grids leaves of light, and, where it is asked for, what the medium gives off along it.
@@ -133,16 +143,16 @@ fn pass_through(medium: Medium, ray: Ray, length_of_ray: f32, emits: bool, key: 
                 break;
             }
             at = min(at + depth_left / (rate * residual), segment.exit);
-            let share = clamp((density_in_segment(volume, segment, ray, at) - control) / residual, 0.0, 1.0);
+            let share = clamp((density_in_segment(volume, segment, ray, at) - control) / residual, BLACK, WHITE);
             if HAS_MEDIUM_EMISSION && emits {
                 var light = medium.emission;
                 if (medium.flags & MEDIUM_HAS_GLOW) != 0u {
                     let albedos = select(0u, 1u, (medium.flags & MEDIUM_HAS_ALBEDOS) != 0u);
                     light *= volume_value(load_volume(medium.first_volume + 1u + albedos), ray.origin + at * ray.direction);
                 }
-                passage.given_off += passage.left * light * (share / rate);
+                passage.given_off += passage.left * light * share / rate;
             }
-            passage.left *= WHITE - medium.extinction * (share / rate);
+            passage.left *= WHITE - medium.extinction * share / rate;
             lookups++;
             var survives = true;
             if max_component(passage.left) < FAINT {

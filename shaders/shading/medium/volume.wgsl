@@ -89,6 +89,14 @@ fn value_of_channel(volume: Volume, at: vec3<f32>, channel: u32) -> f32 {
     return blended_voxels(volume, at, channel);
 }
 
+// The value at a point of index space, or at the point of the box that is nearest to it.
+fn value_at_index(volume: Volume, at: vec3<f32>) -> Spectrum {
+    if (volume.flags & VOLUME_COLORED) == 0u {
+        return Spectrum(value_of_channel(volume, at, 0u) * volume.scale);
+    }
+    return Spectrum(value_of_channel(volume, at, 0u), value_of_channel(volume, at, 1u), value_of_channel(volume, at, 2u)) * volume.scale;
+}
+
 // The value at a point of the scene.
 fn volume_value(volume: Volume, point: vec3<f32>) -> Spectrum {
     let at = to_index_point(volume, point);
@@ -96,8 +104,5 @@ fn volume_value(volume: Volume, point: vec3<f32>) -> Spectrum {
     if !is_inside && (volume.flags & VOLUME_BORDER) == 0u {
         return volume.outside;
     }
-    if (volume.flags & VOLUME_COLORED) == 0u {
-        return Spectrum(value_of_channel(volume, at, 0u) * volume.scale);
-    }
-    return Spectrum(value_of_channel(volume, at, 0u), value_of_channel(volume, at, 1u), value_of_channel(volume, at, 2u)) * volume.scale;
+    return value_at_index(volume, at);
 }

@@ -66,7 +66,8 @@ fn begin_volume_crossing(volume: Volume, ray: Ray, length_of_ray: f32) -> Volume
 fn segment_outside(volume: Volume, crossing: ptr<function, VolumeCrossing>, exit: f32) -> VolumeSegment {
     let entry = (*crossing).at;
     (*crossing).at = exit;
-    var bounds = vec2<f32>(volume.outside.x);
+    let outside = volume.outside;
+    var bounds = vec2<f32>(min(outside.x, min(outside.y, outside.z)), max_component(outside));
     if (volume.flags & VOLUME_BORDER) != 0u {
         bounds = volume.bounds * volume.scale;
     }
@@ -110,9 +111,9 @@ fn next_segment(volume: Volume, crossing: ptr<function, VolumeCrossing>) -> Volu
 
 // The density at a distance within a segment. Where rounding puts the place into the cell beside, it is that of the nearest point of its own, whose
 // bounds hold.
-fn density_in_segment(volume: Volume, segment: VolumeSegment, ray: Ray, distance: f32) -> f32 {
+fn density_in_segment(volume: Volume, segment: VolumeSegment, ray: Ray, distance: f32) -> Spectrum {
     if !segment.is_inside && (volume.flags & VOLUME_BORDER) == 0u {
-        return volume.outside.x;
+        return volume.outside;
     }
     var at = to_index_point(volume, ray.origin + distance * ray.direction);
     if segment.is_inside {
@@ -123,5 +124,5 @@ fn density_in_segment(volume: Volume, segment: VolumeSegment, ray: Ray, distance
         }
         at = clamp(at, low, high);
     }
-    return value_of_channel(volume, at, 0u) * volume.scale;
+    return value_at_index(volume, at);
 }

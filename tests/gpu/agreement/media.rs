@@ -148,7 +148,7 @@ medium = "haze"
 [[medium]]
 name = "haze"
 scattering = [0.05, 0.06, 0.08]
-density = { resolution = [1, 2, 1], values = [1, 0.2], bounds = [[-1, -1, -1], [1, 3, 1]], outside = "border" }
+density = { resolution = [1, 2, 1], values = [1, 0.8, 0.5, 0.2, 0.2, 0.3], bounds = [[-1, -1, -1], [1, 3, 1]], outside = "border" }
 [[medium]]
 name = "cloud"
 mean_free_path = [0.3, 0.25, 0.2]

@@ -6,7 +6,7 @@ use glam::DVec3;
 use sha2::Sha256;
 
 use super::check::Check;
-use super::volume::{Majorants, Outside, Volume, VoxelGrid};
+use super::volume::{Majorants, Volume, VoxelGrid};
 use crate::spectrum::Spectrum;
 
 /// Coarse cells along the longest axis of a density's grid. More of them bound the density closer, and more are crossed.
@@ -27,7 +27,7 @@ pub struct MediumGrids {
 /// The grids that make a medium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridsOfMedium {
-    /// Factor of everything that the medium takes and gives per unit length; one channel.
+    /// Factor of everything that the medium takes and gives per unit length.
     pub density: Volume,
     /// Share that is scattered of the light that is lost, by which the medium's scattering is multiplied.
     pub albedo: Option<Volume>,
@@ -69,8 +69,8 @@ impl MediumGrids {
     }
 
     /// The density next to a point of the medium's space that is within a coarse cell, or outside of the grid.
-    pub fn density_in(&self, cell: Option<[u32; 3]>, point: DVec3) -> f64 {
-        self.density.in_cell(cell, self.majorants.side(), self.density.to_index.transform_point3(point)).r()
+    pub fn density_in(&self, cell: Option<[u32; 3]>, point: DVec3) -> Spectrum {
+        self.density.in_cell(cell, self.majorants.side(), self.density.to_index.transform_point3(point))
     }
 
     /// Attenuation per unit length and density at which light that is given off is looked up often enough, though none is lost.
@@ -96,10 +96,6 @@ impl MediumGrids {
         let Self { density, albedo, emission, .. } = self;
         for (what, volume) in [("density", Some(density)), ("albedo", albedo.as_ref()), ("emission", emission.as_ref())] {
             volume.map_or(Ok(()), Volume::check).map_err(|reason| format!("the grid of its {what}: {reason}"))?;
-        }
-        let is_grey = |value: Spectrum| value.min_component() == value.max_component();
-        if density.grid.channels() != 1 || matches!(density.outside, Outside::Constant(value) if !is_grey(value)) {
-            return Err("the grid of its density has colours, and a density has one number".to_owned());
         }
         match albedo {
             Some(albedo) if albedo.range()[1] > 1.0 => Err(format!("its albedo goes up to {}, above 1", albedo.range()[1])),

@@ -46,7 +46,7 @@ pub struct MediumEntry {
     pub emission: Option<Rgb<NonNegative>>,
     /// How scattered light is spread over directions; isotropic when left out.
     pub phase: Option<PhaseEntry>,
-    /// A grid of one number for each voxel, in the space of the scene: from place to place, what is absorbed, scattered and given off is multiplied by it.
+    /// A grid in the space of the scene, of one number for each voxel or of red, green and blue: from place to place, what is absorbed, scattered and given off is multiplied by it.
     pub density: Option<Located<VolumeEntry>>,
     /// With `density`, in place of `albedo`: a grid of the share that is scattered of the light that is lost to a ray.
     pub albedo_grid: Option<Located<VolumeEntry>>,

@@ -388,12 +388,12 @@ fn what_is_not_exact_of_a_grid_is_reported_and_what_is_wrong_refused() {
     let turned = "<transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/></transform>";
     let square = "<transform name=\"to_world\"><rotate z=\"1\" angle=\"90\"/></transform>";
     for (keys, said) in [
-        (CLOUD.replace("MORE", "").replace("cloud.vol", "red.vol"), "density of a medium in colours"),
         (CLOUD.replace("MORE", turned), "density of a medium that is turned"),
         (CLOUD.replace("MORE", "<string name=\"wrap_mode\" value=\"repeat\"/>"), "wrap_mode `repeat`"),
         (CLOUD.replace("MORE", "<float name=\"unheard_of\" value=\"1\"/>"), "unheard_of"),
         ("<volume type=\"procedural\" name=\"sigma_t\"/>".to_owned(), "volume `procedural`"),
         // The controls: nothing is said of what is exact.
+        (CLOUD.replace("MORE", "").replace("cloud.vol", "red.vol"), ""),
         (CLOUD.replace("MORE", square), ""),
         (CLOUD.replace("MORE", "<string name=\"wrap_mode\" value=\"mirror\"/><boolean name=\"raw\" value=\"true\"/>"), ""),
     ] {

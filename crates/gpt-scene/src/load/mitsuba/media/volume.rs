@@ -153,8 +153,8 @@ impl Converter<'_> {
         })
     }
 
-    /// A density of one channel, and the colour by which its voxels are multiplied: all of them by one, or the mean of the channels is taken.
-    fn of_one_channel(&mut self, grid: &Grid) -> Result<(Arc<VoxelGrid>, Spectrum), SceneError> {
+    /// The density, and a colour by which it is multiplied: voxels that all have one colour are looked up as one channel.
+    fn of_one_colour(&mut self, grid: &Grid) -> Result<(Arc<VoxelGrid>, Spectrum), SceneError> {
         let Grid { plugin, placed, .. } = grid;
         let grid = &placed.grid;
         if grid.channels() == 1 {
@@ -171,21 +171,19 @@ impl Converter<'_> {
             let most = largest(voxel);
             voxel.iter().zip(&tint).all(|(value, share)| (value - most * share).abs() <= 1e-5 * most)
         };
-        let (values, tint) = if voxels.clone().all(is_tinted) {
-            let share = |channel: usize| f64::from(tint[channel]);
-            (voxels.map(largest).collect(), Spectrum::new(share(0), share(1), share(2)))
-        } else {
-            self.approximate(plugin, "density of a medium in colours", "the mean of red, green and blue is taken");
-            (voxels.map(|voxel| voxel.iter().sum::<f32>() / voxel.len() as f32).collect(), Spectrum::WHITE)
-        };
-        Ok((Arc::new(plugin.possible(VoxelGrid::new(grid.resolution(), 1, values))?), tint))
+        if !voxels.clone().all(is_tinted) {
+            return Ok((grid.clone(), Spectrum::WHITE));
+        }
+        let values = voxels.map(largest).collect();
+        let [red, green, blue] = [0, 1, 2].map(|channel| f64::from(tint[channel]));
+        Ok((Arc::new(plugin.possible(VoxelGrid::new(grid.resolution(), 1, values))?), Spectrum::new(red, green, blue)))
     }
 
     /// The density of a medium, which is nowhere but in its box, and the colour that multiplies it.
     pub(super) fn density_entry(&mut self, grid: &Grid) -> Result<(VolumeEntry, Spectrum), SceneError> {
-        let (of_one, tint) = self.of_one_channel(grid)?;
+        let (of_one, tint) = self.of_one_colour(grid)?;
         let mut entry = self.grid_entry(grid, OutsideName::Background)?;
-        if grid.placed.grid.channels() > 1 {
+        if !Arc::ptr_eq(&of_one, &grid.placed.grid) {
             let to_box = grid.placed.to_index.inverse();
             let corner = |point: DVec3| grid.plugin.possible(Exactly::of(to_box.transform_point3(point).to_array()));
             if entry.bounds.is_none() {
