@@ -36,4 +36,6 @@ class Exported:
         self.text = self.replaced(r'(<sampler type=")\w+', sampler)
         self.text = self.replaced(r'(<integer name="sample_count" value=")\d+', spp)
         sensor = re.search(r"(?s)<sensor .*?</sensor>", self.text).group(0)
-        return self.mi.load_string(f'<scene version="3.0.0">{sensor}</scene>').sensors()[0]
+        # One within a medium names it.
+        media = "".join(re.findall(r"(?sm)^  <medium .*?^  </medium>", self.text))
+        return self.mi.load_string(f'<scene version="3.0.0">{media}{sensor}</scene>').sensors()[0]

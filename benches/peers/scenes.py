@@ -99,6 +99,9 @@ ALL = {
     "interior": Scene("target/scenes/interior.toml", (320, 240), without=EXPORTED, kind="model"),
     "ajar": Scene("target/scenes/ajar.toml", (320, 240), without=EXPORTED, kind="model"),
     "sponza-like": Scene("target/scenes/sponza-like.toml", (320, 240), without=EXPORTED, kind="model"),
+    "foggy-room": Scene("target/scenes/foggy-room.toml", (320, 240), without=EXPORTED, kind="model"),
+    "cloud": Scene("target/scenes/cloud.toml", (320, 240), without=EXPORTED, kind="model"),
+    "milk": Scene("target/scenes/milk.toml", (320, 240), without=EXPORTED, kind="model"),
     "canopy": Scene(
         "target/scenes/canopy.toml", (320, 240), without={"luxcore": "its cut-outs are not translated for it"}, kind="model"
     ),

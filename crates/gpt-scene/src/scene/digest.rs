@@ -162,8 +162,12 @@ fn hash_items<T, const WORDS: usize>(hash: &mut Sha256, items: &[T], words: impl
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
+    use crate::scene::{GridsOfMedium, Medium, MediumGrids, Phase, Volume, VoxelGrid};
     use crate::scene::{Shape, Transform};
+    use crate::spectrum::Spectrum;
 
     fn scene() -> Scene {
         let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], faces: vec![[0, 1, 2]], ..Mesh::default() };
@@ -199,6 +203,33 @@ mod tests {
         let mut other_material = scene();
         other_material.shapes[0].material = 1;
         for other in [moved, turned, other_material] {
+            assert_ne!(digest(&other), first);
+        }
+    }
+
+    /// Media count by their numbers and by every voxel of their grids.
+    #[test]
+    fn media_count() {
+        let with = |scattering: f64, voxel: f32| {
+            let mut scene = scene();
+            let grid = VoxelGrid::new([2, 1, 1], 1, vec![1.0, voxel]).expect("a grid");
+            let density = Volume::in_box(Arc::new(grid), DVec3::ZERO, DVec3::ONE);
+            let grids = MediumGrids::new(GridsOfMedium { density, albedo: None, emission: None });
+            scene.media.push(Medium {
+                name: "fog".into(),
+                absorption: Spectrum::BLACK,
+                scattering: Spectrum::grey(scattering),
+                emission: Spectrum::BLACK,
+                phase: Phase::isotropic(),
+                grids: Some(Arc::new(grids)),
+            });
+            scene
+        };
+        let first = digest(&with(1.0, 2.0));
+        assert_eq!(digest(&with(1.0, 2.0)), first);
+        let mut within = with(1.0, 2.0);
+        within.camera_medium = Some(0);
+        for other in [scene(), with(1.5, 2.0), with(1.0, 2.5), within] {
             assert_ne!(digest(&other), first);
         }
     }
