@@ -157,6 +157,12 @@ impl PackedMedia {
         !self.volumes.volumes.is_empty()
     }
 
+    /// Some medium that differs from place to place is passed by paths, which it does not scatter or to which it gives light.
+    pub fn pass_paths(&self) -> bool {
+        let passes = |medium: &PackedMedium| medium.flags & MEDIUM_SCATTERS == 0 || medium.emission != [0.0; 3];
+        self.media.iter().any(|medium| medium.flags & MEDIUM_VARIES != 0 && passes(medium))
+    }
+
     /// Some medium gives off light.
     pub fn emit(&self) -> bool {
         self.media.iter().any(|medium| medium.emission != [0.0; 3])

@@ -312,6 +312,7 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     let open_boundaries = packed.materials.has_open_boundaries();
     switches.enable("OPEN_BOUNDARIES", (open_boundaries || media.vary()) && !media.is_empty());
     switches.enable("MEDIUM_GRIDS", media.vary());
+    switches.enable("MEDIUM_PASSAGE", media.pass_paths());
     switches.enable("ANISOTROPY", has_form(ANISOTROPIC));
     switches.enable("ANISOTROPY_DIRECTIONS", has_form(material::DIRECTED));
     let coat_normals_differ = scene.coat_normals_differ();

@@ -223,6 +223,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("MEDIA"),
     switch("MEDIUM_EMISSION").requires(&["MEDIA"]),
     switch("MEDIUM_GRIDS").requires(&["MEDIA", "OPEN_BOUNDARIES", "TEXELS"]),
+    switch("MEDIUM_PASSAGE").requires(&["MEDIUM_GRIDS"]),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
     // A mixture has lobes besides the diffuse one.
     switch("MORE_LOBES").requires(&["MIXTURE"]),

@@ -6,7 +6,7 @@ pub const ENOUGH: [&str; 4] = ["examples", "terrace", "bazaar", "arbour"];
 
 /// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
 /// `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 36] = [
+pub const ELSEWHERE: [&str; 37] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
@@ -23,6 +23,7 @@ pub const ELSEWHERE: [&str; 36] = [
     "LIGHT_TEXTURES",
     "MEDIUM_EMISSION",
     "MEDIUM_GRIDS",
+    "MEDIUM_PASSAGE",
     "NORMAL_MIRRORING",
     "NORMAL_SCALES",
     "NORMAL_SHADOWING",

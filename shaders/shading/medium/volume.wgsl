@@ -52,13 +52,16 @@ fn to_index_vector(volume: Volume, direction: vec3<f32>) -> vec3<f32> {
     );
 }
 
+fn channels_of(volume: Volume) -> u32 {
+    return select(1u, 3u, (volume.flags & VOLUME_COLORED) != 0u);
+}
+
 // One value of the voxel that is nearest to this one.
 fn voxel(volume: Volume, at: vec3<i32>, channel: u32) -> f32 {
     let within = vec3<u32>(clamp(at, vec3<i32>(0), volume.resolution - 1));
     let size = vec3<u32>(volume.resolution);
     let index = (within.z * size.y + within.y) * size.x + within.x;
-    let channels = select(1u, 3u, (volume.flags & VOLUME_COLORED) != 0u);
-    return texel_float(volume.first_value + index * channels + channel);
+    return texel_float(volume.first_value + index * channels_of(volume) + channel);
 }
 
 // The blend along x, then y, then z, at a point of index space.
@@ -91,10 +94,12 @@ fn value_of_channel(volume: Volume, at: vec3<f32>, channel: u32) -> f32 {
 
 // The value at a point of index space, or at the point of the box that is nearest to it.
 fn value_at_index(volume: Volume, at: vec3<f32>) -> Spectrum {
-    if (volume.flags & VOLUME_COLORED) == 0u {
-        return Spectrum(value_of_channel(volume, at, 0u) * volume.scale);
+    // Drivers copy a function to each of its calls.
+    var value = BLACK;
+    for (var channel = 0u; channel < channels_of(volume); channel++) {
+        value[channel] = value_of_channel(volume, at, channel);
     }
-    return Spectrum(value_of_channel(volume, at, 0u), value_of_channel(volume, at, 1u), value_of_channel(volume, at, 2u)) * volume.scale;
+    return select(Spectrum(value.x), value, channels_of(volume) > 1u) * volume.scale;
 }
 
 // The value at a point of the scene.

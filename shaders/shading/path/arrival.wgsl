@@ -61,12 +61,14 @@ fn arrive_through_grids(path: Path, medium: Medium, ray_length: f32, vertex: u32
     var arrival = Arrival(BLACK, path.throughput, 0u, ray_length);
     let random = random_block(path.pixel, path.sample_in_pass, FIRST_MEDIUM_BLOCK + vertex - 1u);
     let scatters = (medium.flags & MEDIUM_SCATTERS) != 0u;
-    let emits = HAS_MEDIUM_EMISSION && any(medium.emission != BLACK);
-    if emits || !scatters {
-        let passage = pass_through(medium, path.ray, ray_length, emits, random.w);
-        arrival.radiance = path.throughput * passage.given_off;
-        if !scatters {
-            arrival.throughput *= passage.left;
+    if HAS_MEDIUM_PASSAGE {
+        let emits = HAS_MEDIUM_EMISSION && any(medium.emission != BLACK);
+        if emits || !scatters {
+            let passage = pass_through(medium, path.ray, ray_length, emits, random.w);
+            arrival.radiance = path.throughput * passage.given_off;
+            if !scatters {
+                arrival.throughput *= passage.left;
+            }
         }
     }
     if HAS_SCATTERING {
