@@ -18,6 +18,8 @@ use crate::load::mitsuba::plugin::Plugin;
 
 /// Most pairs of shapes that are looked at to find which is within which.
 const MOST_PAIRS: usize = 1 << 24;
+/// Reflections between the faces of a thin wall; half of what is left after them is lost.
+const BETWEEN_FACES: usize = 5;
 
 /// The media on the sides of a shape.
 #[derive(Default)]
@@ -118,15 +120,20 @@ impl Converter<'_> {
         Ok(name)
     }
 
-    /// A wall without thickness as two mirrors before each other, by each of which light passes as by a face of glass: rays go through it and shadow
-    /// rays too, into the medium and out of it.
+    /// A wall without thickness as a blend of a mirror and of nothing, so that rays go through it into the medium, and shadow rays too.
+    ///
+    /// Each face reflects the share R, and of what is between them all reflections count: 2R/(1 + R), which is R + (1 − R)·x by x = R·(1 − x). Each
+    /// blend by R takes one step of that.
     fn thin_wall(&mut self, shape: &Plugin, wall: &MaterialEntry) -> Result<MaterialEntry, SceneError> {
-        let (ior, reflectance) = match wall {
-            MaterialEntry::Glass(keys) => (keys.ior.as_ref().map(|ior| ior.value), keys.reflectance.clone()),
-            _ => (None, None),
+        let (ior, reflectance, is_tinted) = match wall {
+            MaterialEntry::Glass(keys) => {
+                (keys.ior.as_ref().map(|ior| ior.value), keys.reflectance.clone(), keys.transmittance.is_some())
+            }
+            _ => (None, None, true),
         };
-        let instead = "it reflects as its two faces do, but for the light between them: up to 5 % too much at grazing angles; and what goes through has no tint";
-        self.approximate(shape, "thin wall around a medium", instead);
+        if is_tinted {
+            self.approximate(shape, "thin wall around a medium", "what goes through it keeps its colour");
+        }
         let place = shape.at();
         let mut add = |wanted: &str, mut entry: MaterialEntry| {
             let name = self.scene.free_material_name(wanted);
@@ -134,15 +141,22 @@ impl Converter<'_> {
             self.scene.file.material.push(entry);
             name
         };
-        let mirror = add("face of a thin wall", MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }));
+        let mirror = add("mirror of a thin wall", MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }));
         let nothing = add("behind a thin wall", MaterialEntry::Pass(pass::Keys::default()));
-        // The weight is what passes.
-        let over = |behind: String| {
+        // Where light passes the face, and where the face reflects it.
+        let by_face = |passed: String, reflected: String| {
             let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
-            MaterialEntry::Blend(blend::Keys::of([behind, mirror.clone()], weight, &place))
+            MaterialEntry::Blend(blend::Keys::of([passed, reflected], weight, &place))
         };
-        let second = add("second face of a thin wall", over(nothing));
-        Ok(over(second))
+        let half = BlendWeightEntry::constant(0.5).map_err(|message| shape.error(message))?;
+        let half = MaterialEntry::Blend(blend::Keys::of([mirror.clone(), nothing.clone()], half, &place));
+        let mut between = add("between the faces of a thin wall", half);
+        // The last step has the share x of the mirror: each one before has it of what the step after leaves.
+        for step in 0..BETWEEN_FACES {
+            let rest = if (BETWEEN_FACES - step) % 2 == 1 { &nothing } else { &mirror };
+            between = add("between the faces of a thin wall", by_face(rest.clone(), between));
+        }
+        Ok(by_face(between, mirror))
     }
 
     /// Notes a shape that is to be added to the scene.
