@@ -86,14 +86,17 @@ impl Converter<'_> {
     }
 
     /// The material of a shape, with what it encloses.
-    pub fn around_medium(
-        &mut self,
-        shape: &Rc<Plugin>,
-        material: String,
-        interior: Option<&Rc<Plugin>>,
-    ) -> Result<String, SceneError> {
-        let Some(interior) = interior else { return Ok(material) };
-        let medium = self.medium(interior)?;
+    pub fn around_medium(&mut self, shape: &Rc<Plugin>, material: String, sides: &Sides) -> Result<String, SceneError> {
+        let medium = match (&sides.interior, sides.is_boundary) {
+            (Some(interior), _) => self.medium(interior)?,
+            // What is around the others is known once all shapes are.
+            _ if !self.media.in_group => return Ok(material),
+            (None, true) => self.clear_medium(shape),
+            (None, false) => match self.media.around_sensor().cloned() {
+                Some(around) if self.is_body(&material) => self.medium(&around)?,
+                _ => return Ok(material),
+            },
+        };
         self.filled(shape, material, medium)
     }
 
@@ -168,6 +171,11 @@ impl Converter<'_> {
             let shape = self.scene.file.shape.len();
             self.media.boundaries.push(Boundary { plugin: plugin.clone(), shape, sides, bounds });
         }
+    }
+
+    /// Begins a group that instances name, or ends it: only the sensor's medium is around its shapes.
+    pub fn enter_group(&mut self, is_entered: bool) {
+        self.media.in_group = is_entered;
     }
 
     /// Forgets those from this number on: they are parts of a group. What is around those is not looked for.
