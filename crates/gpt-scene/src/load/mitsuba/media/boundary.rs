@@ -183,7 +183,7 @@ impl Converter<'_> {
         let (kept, of_group): (Vec<Boundary>, Vec<Boundary>) =
             std::mem::take(&mut self.media.boundaries).into_iter().partition(|boundary| boundary.shape < before);
         self.media.boundaries = kept;
-        for boundary in of_group {
+        for boundary in of_group.into_iter().filter(|boundary| boundary.sides.is_boundary) {
             let around = self.media.around_sensor().cloned();
             self.report_exterior(&boundary, around.as_ref());
         }
