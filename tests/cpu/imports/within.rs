@@ -107,7 +107,8 @@ const FOG: &str = "<scene version=\"3.0.0\"><integrator type=\"volpath\"/><senso
 /// written of it are one picture.
 #[test]
 fn media_come_along() {
-    let text = format!("[[import]]\nfile = \"a.xml\"\n{}", LIGHT.replace("0.5", "0"));
+    // Settings stay behind.
+    let text = "[render]\nmax_depth = 0\n[film]\nfilter = { type = \"gaussian\", radius = 1.5 }\n[[import]]\nfile = \"a.xml\"\n";
     let folder = Folder::new(&[("a.xml", FOG.as_bytes()), ("scene.toml", text.as_bytes())]);
     let (alone, imported) = (folder.valid("a.xml"), folder.valid("scene.toml"));
     let names = |scene: &Scene| scene.media.iter().map(|medium| medium.name.clone()).collect::<Vec<_>>();

@@ -1,7 +1,7 @@
 """Cases of media, their phase functions and their boundaries."""
 
 from . import files
-from .scene import LAMP, Case, bsdf, camera, diffuse, element, film, integer, light_box, number, plugin, point, rgb, rotate, scale, scene, sensor, shape, spectrum, string, transform, translate
+from .scene import LAMP, Case, bsdf, camera, diffuse, element, emitter, integer, lamp, light_box, number, plugin, point, rgb, rotate, scale, scene, sensor, shape, spectrum, string, transform, translate
 
 NULL = bsdf("null")
 DEPTH = 6
@@ -39,12 +39,12 @@ def filled(*of_shape, integrator=None, radius=1.2, more=""):
     return scene(integrator or tracer(), camera("0, 0, 4.4", fov=29), more, ball, light_box(), LAMP)
 
 
-def fog(*of_medium, type_="homogeneous", things="", depth=DEPTH):
-    """A medium around the sensor, with a wall that a point light shines on."""
+def fog(*of_medium, type_="homogeneous", things="", depth=DEPTH, light=None):
+    """A medium around the sensor, with a wall that a lamp shines on: paths that are scattered near a point are rare and bright."""
     wall = shape("rectangle", transform(scale(3), translate(0, 0, -1.5)), bsdf("twosided", diffuse(0.6, 0.5, 0.4)))
     eye = sensor(number("fov", 40), transform(element("lookat", origin="0, 0, 4", target="0, 0, 0", up="0, 1, 0")), medium(*of_medium, name=None, type_=type_, id="fog"))
-    lamp = plugin("emitter", "point", point("position", 2.5, 2.2, 2.5), rgb("intensity", 24, 20, 16))
-    return scene(tracer(depth), eye, wall, things, lamp)
+    panel = shape("rectangle", transform(element("lookat", origin="2.5, 2.2, 2.5", target="0, 0, 0", up="0, 1, 0")), lamp((9, 8, 6)))
+    return scene(tracer(depth), eye, wall, things, light or panel)
 
 
 def cases():
@@ -175,6 +175,10 @@ def boundaries():
         hidden = form in ("diffuse", "none", "twosided diffuse")
         yield Case("medium", "homogeneous", "interior", form, filled(surface, milk), None if hidden else filled(surface))
     yield Case("medium", "homogeneous", "interior", "cube", scene(tracer(), camera("2, 1.5, 4"), shape("cube", NULL, milk), light_box(), LAMP), scene(tracer(), camera("2, 1.5, 4"), shape("cube", NULL), light_box(), LAMP))
+    group = shape("shapegroup", shape("cube", NULL, milk), id="g")
+    placed = plugin("shape", "instance", ref("g"), transform(scale(0.8), translate(0.2, 0, 0)))
+    of_group = lambda group_: scene(tracer(), camera("2, 1.5, 4"), group_, placed, light_box(), LAMP)
+    yield Case("medium", "homogeneous", "interior", "in an instance", of_group(group), of_group(shape("shapegroup", shape("cube", NULL), id="g")))
     named = plugin("medium", "homogeneous", rgb("sigma_t", 0.9, 0.7, 0.5), id="milk")
     yield Case("medium", "homogeneous", "interior", "by ref", filled(NULL, ref("milk", "interior"), more=named), filled(NULL, more=named))
     outside = plugin("medium", "homogeneous", number("sigma_t", 0.3), id="air")
@@ -185,7 +189,11 @@ def boundaries():
     yield Case("medium", "homogeneous", "exterior", "alone, a hole", filled(NULL, ref("air", "interior"), more=dense + hole), filled(NULL, ref("air", "interior"), more=dense))
     glass = shape("sphere", number("radius", 0.8), bsdf("dielectric", number("int_ior", 1.3)))
     yield Case("medium", "homogeneous", "interior", "of what is around a body of glass", filled(NULL, ref("air", "interior"), more=dense + glass), filled(NULL, ref("air", "interior"), more=dense))
-    yield Case("sensor", "perspective", "medium", "fog", fog(number("sigma_t", 0.3), phase("hg", number("g", 0.6))), fog(number("sigma_t", 0.2)))
+    ahead = phase("hg", number("g", 0.6))
+    yield Case("sensor", "perspective", "medium", "fog", fog(number("sigma_t", 0.3), ahead), fog(number("sigma_t", 0.2)))
+    bulb = emitter("point", point("position", 2.5, 2.2, 2.5), rgb("intensity", 24, 20, 16))
+    yield Case("sensor", "perspective", "medium", "fog, a point light, scattered once", fog(number("sigma_t", 0.3), ahead, depth=2, light=bulb), fog(number("sigma_t", 0.3), depth=2, light=bulb))
+    yield Case("sensor", "perspective", "medium", "a cloud", fog(grid("sigma_t", files.CLOUD, place=transform(translate(-0.5, -0.5, -0.5), scale(3))), type_="heterogeneous"), fog(number("sigma_t", 0.2)))
     yield Case("sensor", "perspective", "medium", "coloured fog", fog(rgb("sigma_t", 0.1, 0.3, 0.6), rgb("albedo", 0.9, 0.8, 0.5)), fog(number("sigma_t", 0.3)))
     ball = shape("sphere", point("center", 0.5, 0, 0), number("radius", 0.7), bsdf("dielectric", number("int_ior", 1.3)), milk, ref("fog", "exterior"))
     yield Case("sensor", "perspective", "medium", "fog around a body", fog(number("sigma_t", 0.3), things=ball), fog(number("sigma_t", 0.3)))

@@ -72,7 +72,9 @@ impl Converter<'_> {
         }
         let copies = self.copies.get(&Rc::as_ptr(group)).copied().unwrap_or(1);
         let (before, triangles) = (self.scene.file.shape.len(), self.triangles);
+        self.enter_group(true);
         self.placed_shape(group, DAffine3::IDENTITY, 1)?;
+        self.enter_group(false);
         let shapes = self.scene.file.shape.split_off(before);
         self.forget_boundaries(before);
         let gives_light = |shape: &ShapeEntry| shape.common().material.is_some_and(|name| self.scene.gives_light(&name.value));
@@ -134,7 +136,7 @@ impl Converter<'_> {
         let material = self.surface_material(plugin, bsdf.as_ref(), light);
         self.attributes = None;
         let boundary = self.boundary(plugin, bsdf.is_some())?;
-        let material = self.around_medium(plugin, material?, boundary.interior.as_ref())?;
+        let material = self.around_medium(plugin, material?, &boundary)?;
         let common = shape.common_mut();
         *common.material = Some(plugin.at().at(material));
         *common.transform = self.transform(&map, plugin)?;

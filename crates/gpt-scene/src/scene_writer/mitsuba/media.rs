@@ -151,12 +151,12 @@ impl Writer<'_> {
         Surroundings { hulls, around_camera: self.medium_around_camera(), is_hull }
     }
 
-    /// The shape with what it holds and what is around it.
-    pub fn with_media(&self, element: Element, shape: Option<&Shape>) -> Element {
+    /// The shape with what it holds and what is around it; around shapes of groups it is the camera's medium.
+    pub fn with_media(&self, element: Element, shape: Option<&Shape>, is_of_group: bool) -> Element {
         let is_hull = |shape: &&Shape| self.surroundings.is_hull.get(shape.material) == Some(&true);
         let Some(shape) = shape.filter(is_hull) else { return element };
         let interior = self.held_by(shape.material);
-        let exterior = self.surroundings.around(bounds(shape));
+        let exterior = self.surroundings.around(bounds(shape).filter(|_| !is_of_group));
         let element = match &interior {
             Some(id) => element.named_reference("interior", id),
             None => element,

@@ -16,7 +16,7 @@ const PLANE: f64 = 1e4;
 impl Writer<'_> {
     pub fn shape(&mut self, index: usize, shape: &Keys<'_>) -> Result<(), SceneError> {
         if let Some(element) = self.shape_element(&format!("shape[{index}]"), shape)? {
-            let element = self.with_media(element, self.original.shapes.get(index));
+            let element = self.with_media(element, self.original.shapes.get(index), false);
             self.xml.push(element);
         }
         Ok(())
@@ -29,7 +29,7 @@ impl Writer<'_> {
         for (number, shape) in entries(group, "shape").into_iter().map(Keys::of).enumerate() {
             if let Some(shape) = self.shape_element(&format!("group[{index}].shape[{number}]"), &shape)? {
                 let original = self.original.groups.get(index).and_then(|group| group.shapes.get(number));
-                element = element.with(self.with_media(shape, original));
+                element = element.with(self.with_media(shape, original, true));
             }
         }
         self.xml.push(element);

@@ -18,6 +18,8 @@ use crate::load::mitsuba::plugin::Plugin;
 
 /// Most pairs of shapes that are looked at to find which is within which.
 const MOST_PAIRS: usize = 1 << 24;
+/// Reflections between the faces of a thin wall; half of what is left after them is lost.
+const BETWEEN_FACES: usize = 5;
 
 /// The media on the sides of a shape.
 #[derive(Default)]
@@ -84,14 +86,17 @@ impl Converter<'_> {
     }
 
     /// The material of a shape, with what it encloses.
-    pub fn around_medium(
-        &mut self,
-        shape: &Rc<Plugin>,
-        material: String,
-        interior: Option<&Rc<Plugin>>,
-    ) -> Result<String, SceneError> {
-        let Some(interior) = interior else { return Ok(material) };
-        let medium = self.medium(interior)?;
+    pub fn around_medium(&mut self, shape: &Rc<Plugin>, material: String, sides: &Sides) -> Result<String, SceneError> {
+        let medium = match (&sides.interior, sides.is_boundary) {
+            (Some(interior), _) => self.medium(interior)?,
+            // What is around the others is known once all shapes are.
+            _ if !self.media.in_group => return Ok(material),
+            (None, true) => self.clear_medium(shape),
+            (None, false) => match self.media.around_sensor().cloned() {
+                Some(around) if self.is_body(&material) => self.medium(&around)?,
+                _ => return Ok(material),
+            },
+        };
         self.filled(shape, material, medium)
     }
 
@@ -118,15 +123,20 @@ impl Converter<'_> {
         Ok(name)
     }
 
-    /// A wall without thickness as two mirrors before each other, by each of which light passes as by a face of glass: rays go through it and shadow
-    /// rays too, into the medium and out of it.
+    /// A wall without thickness as a blend of a mirror and of nothing, so that rays go through it into the medium, and shadow rays too.
+    ///
+    /// Each face reflects the share R, and of what is between them all reflections count: 2R/(1 + R), which is R + (1 − R)·x by x = R·(1 − x). Each
+    /// blend by R takes one step of that.
     fn thin_wall(&mut self, shape: &Plugin, wall: &MaterialEntry) -> Result<MaterialEntry, SceneError> {
-        let (ior, reflectance) = match wall {
-            MaterialEntry::Glass(keys) => (keys.ior.as_ref().map(|ior| ior.value), keys.reflectance.clone()),
-            _ => (None, None),
+        let (ior, reflectance, is_tinted) = match wall {
+            MaterialEntry::Glass(keys) => {
+                (keys.ior.as_ref().map(|ior| ior.value), keys.reflectance.clone(), keys.transmittance.is_some())
+            }
+            _ => (None, None, true),
         };
-        let instead = "it reflects as its two faces do, but for the light between them: up to 5 % too much at grazing angles; and what goes through has no tint";
-        self.approximate(shape, "thin wall around a medium", instead);
+        if is_tinted {
+            self.approximate(shape, "thin wall around a medium", "what goes through it keeps its colour");
+        }
         let place = shape.at();
         let mut add = |wanted: &str, mut entry: MaterialEntry| {
             let name = self.scene.free_material_name(wanted);
@@ -134,15 +144,22 @@ impl Converter<'_> {
             self.scene.file.material.push(entry);
             name
         };
-        let mirror = add("face of a thin wall", MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }));
+        let mirror = add("mirror of a thin wall", MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }));
         let nothing = add("behind a thin wall", MaterialEntry::Pass(pass::Keys::default()));
-        // The weight is what passes.
-        let over = |behind: String| {
+        // Where light passes the face, and where the face reflects it.
+        let by_face = |passed: String, reflected: String| {
             let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
-            MaterialEntry::Blend(blend::Keys::of([behind, mirror.clone()], weight, &place))
+            MaterialEntry::Blend(blend::Keys::of([passed, reflected], weight, &place))
         };
-        let second = add("second face of a thin wall", over(nothing));
-        Ok(over(second))
+        let half = BlendWeightEntry::constant(0.5).map_err(|message| shape.error(message))?;
+        let half = MaterialEntry::Blend(blend::Keys::of([mirror.clone(), nothing.clone()], half, &place));
+        let mut between = add("between the faces of a thin wall", half);
+        // The last step has the share x of the mirror: each one before has it of what the step after leaves.
+        for step in 0..BETWEEN_FACES {
+            let rest = if (BETWEEN_FACES - step) % 2 == 1 { &nothing } else { &mirror };
+            between = add("between the faces of a thin wall", by_face(rest.clone(), between));
+        }
+        Ok(by_face(between, mirror))
     }
 
     /// Notes a shape that is to be added to the scene.
@@ -156,12 +173,17 @@ impl Converter<'_> {
         }
     }
 
+    /// Begins a group that instances name, or ends it: only the sensor's medium is around its shapes.
+    pub fn enter_group(&mut self, is_entered: bool) {
+        self.media.in_group = is_entered;
+    }
+
     /// Forgets those from this number on: they are parts of a group. What is around those is not looked for.
     pub fn forget_boundaries(&mut self, before: usize) {
         let (kept, of_group): (Vec<Boundary>, Vec<Boundary>) =
             std::mem::take(&mut self.media.boundaries).into_iter().partition(|boundary| boundary.shape < before);
         self.media.boundaries = kept;
-        for boundary in of_group {
+        for boundary in of_group.into_iter().filter(|boundary| boundary.sides.is_boundary) {
             let around = self.media.around_sensor().cloned();
             self.report_exterior(&boundary, around.as_ref());
         }

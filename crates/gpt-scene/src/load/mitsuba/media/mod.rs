@@ -55,6 +55,8 @@ pub struct Media {
     /// How reports call the integrator, if that does not render media.
     blind: Option<String>,
     boundaries: Vec<Boundary>,
+    /// The shapes that are met are a group's, which instances place.
+    in_group: bool,
     /// Materials that enclose a medium, by the names of the material without it and of the medium.
     filled: HashMap<(String, String), String>,
     /// Materials that light gets into and is bent by, by their names.

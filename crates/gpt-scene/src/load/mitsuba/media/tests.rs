@@ -236,6 +236,39 @@ fn bodies_of_glass_hold_what_is_around_them() {
     assert!(report(&scene).contains("no medium outside of a shape"), "{}", report(&scene));
 }
 
+/// Around shapes of a group that instances place is the sensor's medium.
+#[test]
+fn groups_hold_media() {
+    let cube = |within: &str| format!("<shape type=\"cube\"><boolean name=\"flip_normals\" value=\"true\"/>{within}</shape>");
+    let group = format!(
+        "<shape type=\"shapegroup\" id=\"g\">{}{}</shape>",
+        cube(GLASS),
+        cube("<ref id=\"glass\"/><ref name=\"interior\" id=\"milk\"/><ref name=\"exterior\" id=\"fog\"/>")
+    );
+    let instances: String = (0..100)
+        .map(|x| {
+            format!(
+                "<shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\"><translate x=\"{}\"/></transform></shape>",
+                3 * x
+            )
+        })
+        .collect();
+    let holds = |of_sensor: &str| {
+        let scene = read(&document(VOLPATH, of_sensor, &format!("{FOG}{group}{instances}")));
+        assert_eq!((scene.groups.len(), scene.shapes.len()), (1, 0));
+        let held = |shape: usize| {
+            let interior = scene.materials[scene.groups[0].shapes[shape].material].interior;
+            interior.map(|id| scene.media[id].name.clone())
+        };
+        ([held(0), held(1)].map(Option::unwrap_or_default), report(&scene))
+    };
+    assert_eq!(holds(IN_FOG), (["fog", "milk"].map(str::to_owned), String::new()));
+    // The control: without fog around the sensor it is not around the group.
+    let (held, report) = holds("");
+    assert_eq!(held, ["", "milk"].map(str::to_owned));
+    assert!(report.contains("exterior medium of a shape"), "{report}");
+}
+
 #[test]
 fn integrators_that_see_no_media_leave_them_out() {
     let shapes = format!("{FOG}{}", ball(1.0, &format!("{GLASS}{MILK}")));
@@ -270,7 +303,9 @@ fn surfaces_around_media() {
     assert_eq!(within(&of("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>"), 0), Some("milk"));
     let thin = of("<bsdf type=\"thindielectric\"/>");
     assert!(matches!(thin.materials[thin.shapes[0].material].kind, MaterialKind::Blend { .. }));
-    assert!(within(&thin, 0) == Some("milk") && report(&thin).contains("thin wall"), "{}", report(&thin));
+    assert_eq!((within(&thin, 0), report(&thin).as_str()), (Some("milk"), ""));
+    let tinted = of("<bsdf type=\"thindielectric\"><rgb name=\"specular_transmittance\" value=\"0.5\"/></bsdf>");
+    assert!(report(&tinted).contains("thin wall around a medium"), "{}", report(&tinted));
     // Without a BSDF it is an opaque surface in version 3.9.1, and was the boundary alone in 0.6.
     let bare = of("");
     assert!(matches!(bare.materials[bare.shapes[0].material].kind, MaterialKind::Diffuse { .. }));
