@@ -24,6 +24,8 @@ shared_constants!(constants {
     /// Most places at which a ray looks up the density of a medium, and the share of light below which it goes on by chance.
     const MOST_LOOKUPS: u32 = media::MOST_LOOKUPS;
     const FAINT: f32 = media::FAINT as f32;
+    /// Flag beside the number of a medium's phase lobes: no light sample within it finds a light.
+    const PHASE_IS_DARK: u32 = 1 << 31;
     /// Above the first of a medium's phase lobes stands how many there are.
     const PHASE_COUNT_SHIFT: u32 = 20;
     /// Kinds of phase lobes.
@@ -90,7 +92,7 @@ impl PackedMedia {
 
     fn medium(&mut self, filling: &Filling) -> Result<PackedMedium, PackError> {
         let (first, count) = (self.phases.len(), filling.phase.0.len());
-        if first >= 1 << PHASE_COUNT_SHIFT || count >= 1 << (32 - PHASE_COUNT_SHIFT) {
+        if first >= 1 << PHASE_COUNT_SHIFT || count >= 1 << (31 - PHASE_COUNT_SHIFT) {
             return Err(PackError::TooManyPhases);
         }
         self.phases.extend(filling.phase.0.iter().map(packed_lobe));
@@ -112,7 +114,7 @@ impl PackedMedia {
                 | flag(grids.is_some_and(|grids| grids.albedo().is_some()), MEDIUM_HAS_ALBEDOS)
                 | flag(grids.is_some_and(|grids| grids.emission().is_some()), MEDIUM_HAS_GLOW),
             scattering: filling.scattering.to_f32(),
-            phase: first as u32 | (count as u32) << PHASE_COUNT_SHIFT,
+            phase: first as u32 | (count as u32) << PHASE_COUNT_SHIFT | flag(filling.is_dark, PHASE_IS_DARK),
             emission: filling.emission.to_f32(),
             first_volume,
         })
@@ -128,7 +130,8 @@ impl PackedMedia {
             return Err(format!("the camera is within medium {} of {}", self.around_camera, self.media.len()));
         }
         for (index, medium) in self.media.iter().enumerate() {
-            let (first, count) = (medium.phase & ((1 << PHASE_COUNT_SHIFT) - 1), medium.phase >> PHASE_COUNT_SHIFT);
+            let (first, count) =
+                (medium.phase & ((1 << PHASE_COUNT_SHIFT) - 1), (medium.phase & !PHASE_IS_DARK) >> PHASE_COUNT_SHIFT);
             if count == 0 || (first + count) as usize > self.phases.len() {
                 return Err(format!("medium {index} has {count} phase lobes from {first} on"));
             }

@@ -132,6 +132,7 @@ mod tests {
             phase: Phase::isotropic(),
             grids: None,
             is_lit: true,
+            is_dark: false,
         }
     }
 

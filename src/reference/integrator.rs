@@ -264,7 +264,7 @@ impl Integrator {
         visitor.medium(path.depth, position, wo, path.throughput);
         let filling = self.media.filling(path.stack.innermost());
         let (Some(filling), true) = (filling, path.depth != self.scene.render.max_depth) else { return false };
-        let scatterer = Scatterer::Medium(Scattering { phase: &filling.phase, wo });
+        let scatterer = Scatterer::Medium(Scattering { phase: &filling.phase, wo, is_dark: filling.is_dark });
         self.scatter(path, &Interaction::medium(position, wo), &scatterer, sampler, visitor)
     }
 

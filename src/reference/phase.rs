@@ -14,6 +14,8 @@ use crate::spectrum::Spectrum;
 pub struct Scattering<'a> {
     pub phase: &'a Phase,
     pub wo: DVec3,
+    /// No light sample finds a light here.
+    pub is_dark: bool,
 }
 
 impl Scattering<'_> {
@@ -105,7 +107,7 @@ mod tests {
     fn samples_follow_the_density() {
         let wo = DVec3::new(0.3, -0.5, 0.8).normalize();
         for phase in phases() {
-            let scattering = Scattering { phase: &phase, wo };
+            let scattering = Scattering { phase: &phase, wo, is_dark: false };
             let side = 200;
             let mut below = [0.0; 16];
             let number = |index: i32| (f64::from(index) + 0.5) / f64::from(side);
@@ -140,7 +142,8 @@ mod tests {
             for step in 0..200 {
                 let cosine = -1.0 + f64::from(step) / 100.0;
                 let wi = DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, -cosine);
-                let [one, other] = [Scattering { phase: &phase, wo }.evaluate(wi).pdf, pdf_by_cosine(&phase, cosine)];
+                let [one, other] =
+                    [Scattering { phase: &phase, wo, is_dark: false }.evaluate(wi).pdf, pdf_by_cosine(&phase, cosine)];
                 assert!((one / other - 1.0).abs() < 1e-9, "{phase:?} at {cosine}: {one} and {other}");
             }
         }

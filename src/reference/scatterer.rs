@@ -77,7 +77,8 @@ impl Scatterer<'_> {
     pub fn has_non_delta_lobe(&self) -> bool {
         match self {
             Self::Surface(bsdf) => bsdf.has_non_delta_lobe(),
-            Self::Medium(_) => true,
+            // No light sample within a dark medium finds a light
+            Self::Medium(scattering) => !scattering.is_dark,
         }
     }
 

@@ -16,7 +16,7 @@ fn phase_lobe(phase: u32, index: u32) -> PhaseLobe {
 }
 
 fn phase_count(phase: u32) -> u32 {
-    return phase >> PHASE_COUNT_SHIFT;
+    return (phase & ~PHASE_IS_DARK) >> PHASE_COUNT_SHIFT;
 }
 
 // Density of a direction. The angle with the way before comes from a difference of directions, which resolves narrow lobes.

@@ -46,7 +46,8 @@ fn scatterer_at(surface: Surface, phase: u32, wo: vec3<f32>, choice: f32) -> Sca
 fn has_non_delta_scattering(scatterer: Scatterer) -> bool {
 #if SCATTERING
     if scatterer.phase != 0u {
-        return true;
+        // No light sample within a dark medium finds a light.
+        return (scatterer.phase & PHASE_IS_DARK) == 0u;
     }
 #endif
     return has_non_delta_lobe(scatterer.bsdf);

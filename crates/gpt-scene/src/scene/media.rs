@@ -1,11 +1,16 @@
 //! The media that bodies of a scene enclose.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use glam::DVec3;
+
+use super::light::{Light, LightStrength};
 use super::material::{Material, MaterialId, MaterialKind};
 use super::medium::{Medium, Phase};
 use super::medium_grids::MediumGrids;
 use super::model::Scene;
+use super::shape::{Geometry, Shape};
 use super::texture::ColorInput;
 use crate::spectrum::Spectrum;
 
@@ -40,19 +45,21 @@ pub struct Filling {
     pub grids: Option<Arc<MediumGrids>>,
     /// Light samples reach it: the camera is within it, or a null surface bounds it.
     pub is_lit: bool,
+    /// No light is within its bodies, and their surfaces bend all light that goes in or out: no light sample within them finds one.
+    pub is_dark: bool,
 }
 
 impl Filling {
     /// Absorbs and does nothing else.
     fn absorbing(extinction: Spectrum) -> Self {
         let (scattering, emission) = (Spectrum::BLACK, Spectrum::BLACK);
-        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_lit: false }
+        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_lit: false, is_dark: false }
     }
 
     fn of(medium: &Medium) -> Self {
         let Medium { scattering, emission, .. } = *medium;
         let (phase, grids) = (medium.phase.clone(), medium.grids.clone());
-        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_lit: false }
+        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_lit: false, is_dark: false }
     }
 
     /// Attenuation per unit length and density by which places are drawn where light passes and is not scattered.
@@ -124,6 +131,10 @@ impl Media {
                 media.fillings[number - 1].is_lit = true;
             }
         }
+        let dark = dark_media(scene, &media);
+        for (filling, is_dark) in media.fillings.iter_mut().zip(dark) {
+            filling.is_dark = is_dark;
+        }
         media
     }
 
@@ -161,6 +172,48 @@ impl Media {
     pub fn emit(&self) -> bool {
         self.fillings.iter().any(|filling| !filling.emission.is_black())
     }
+}
+
+/// By medium: no light is within its bodies, and no light sample gets through their surfaces. Bodies that are not closed for sure, that move or stand
+/// in groups are not looked at.
+fn dark_media(scene: &Scene, media: &Media) -> Vec<bool> {
+    let mut is_dark: Vec<bool> = media.fillings.iter().map(|filling| filling.scatters() && !filling.is_lit).collect();
+    if !is_dark.contains(&true) {
+        return is_dark;
+    }
+    let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
+    let is_light = |shape: &&Shape| shape.materials().any(|material| scene.emits(material));
+    let moves = |shape: &Shape| shape.motion.is_some();
+    // None: it may be anywhere.
+    let mut lights: Vec<Option<[DVec3; 2]>> =
+        scene.shapes.iter().filter(is_light).map(|shape| shape.bounds().filter(|_| !moves(shape))).collect();
+    let stand = scene.lights.iter().filter_map(Light::delta).filter(|light| matches!(light.strength, LightStrength::Power(_)));
+    lights.extend(stand.map(|light| Some([light.position; 2])));
+    if scene.groups.iter().flat_map(|group| &group.shapes).any(|shape| is_light(&shape)) {
+        lights.push(None);
+    }
+    let may_be_within = |body: [DVec3; 2]| {
+        let meets = |[low, high]: [DVec3; 2]| low.cmple(body[1]).all() && high.cmpge(body[0]).all();
+        lights.iter().any(|light| light.is_none_or(meets))
+    };
+    let keeps_out = |shape: &Shape| {
+        let is_closed = match &shape.geometry {
+            Geometry::Sphere(_) | Geometry::Box(_) => true,
+            Geometry::Mesh(mesh) => mesh.is_closed() && !mesh.looks_inward(),
+            Geometry::Rectangle(_) | Geometry::Disk(_) | Geometry::Cylinder(_) | Geometry::Plane(_) => false,
+        };
+        let is_at_rest = !moves(shape) && shape.face_materials_agree() && !lets_through[shape.material];
+        is_closed && is_at_rest && shape.bounds().is_some_and(|bounds| !may_be_within(bounds))
+    };
+    let of_groups = scene.groups.iter().flat_map(|group| &group.shapes);
+    for (shape, is_alone) in scene.shapes.iter().map(|shape| (shape, true)).chain(of_groups.map(|shape| (shape, false))) {
+        for number in shape.materials().map(|material| media.behind(material)).collect::<BTreeSet<_>>() {
+            if number != 0 && is_dark[number - 1] && !(is_alone && keeps_out(shape)) {
+                is_dark[number - 1] = false;
+            }
+        }
+    }
+    is_dark
 }
 
 /// Gives blends the medium inside their parts.
@@ -222,5 +275,25 @@ mod tests {
         let number =
             |name: &str| media.behind(scene.materials.iter().position(|material| material.name == name).expect("it is there"));
         assert_eq!(number("mixed"), number("amber"));
+    }
+
+    /// Lamps within a body, and surfaces that let light samples through, are looked for.
+    #[test]
+    fn media_are_dark_where_no_light_is_within() {
+        let body = "[[medium]]\nname = 'milk'\nscattering = 2\n[[material]]\nname = 'milk'\ntype = 'glass'\ninterior = 'milk'\n\
+                    [[material]]\nname = 'lamp'\ntype = 'emissive'\nradiance = 1\n[[material]]\nname = 'gone'\ntype = 'pass'\n";
+        let ball = "[[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'milk'\n";
+        let lamp = |x: f64| format!("[[shape]]\ntype = 'sphere'\ncenter = [{x:?}, 0, 0]\nradius = 0.1\nmaterial = 'lamp'\n");
+        let point = "[[light]]\ntype = 'point'\nposition = [0.5, 0.5, 0.5]\nintensity = 1\n";
+        let tube = "[[shape]]\ntype = 'cylinder'\nfrom = [0, 0, 0]\nto = [0, 1, 0]\nradius = 1\nmaterial = 'milk'\n";
+        let veil = "[[material]]\nname = 'veil'\ntype = 'blend'\nmaterials = ['milk', 'gone']\nweight = { type = 'constant', value = 0.5 }\n\
+                    [[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'veil'\n";
+        let is_dark = |shapes: &str| media(&format!("{body}{shapes}")).1.fillings.iter().any(|filling| filling.is_dark);
+        assert!(is_dark(ball) && is_dark(&format!("{ball}{}", lamp(3.0))));
+        for lit in
+            [format!("{ball}{}", lamp(0.5)), format!("{ball}{point}"), tube.to_owned(), veil.to_owned(), format!("{ball}{tube}")]
+        {
+            assert!(!is_dark(&lit), "{lit}");
+        }
     }
 }

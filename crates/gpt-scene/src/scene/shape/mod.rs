@@ -1,5 +1,6 @@
 //! Surfaces, and the table of shapes.
 
+mod bounds;
 mod closed_mesh;
 mod cuboid;
 mod cylinder;
@@ -134,6 +135,11 @@ pub struct Shape {
 }
 
 impl Shape {
+    /// All of its faces have the material of the shape.
+    pub fn face_materials_agree(&self) -> bool {
+        self.geometry.model().face_materials().is_empty()
+    }
+
     /// The materials of its faces, else its own. One may be named more than once.
     pub fn materials(&self) -> impl Iterator<Item = MaterialId> {
         let of_faces = self.geometry.model().face_materials();

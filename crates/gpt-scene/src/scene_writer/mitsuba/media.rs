@@ -37,6 +37,7 @@ impl Hull {
 pub struct Surroundings {
     /// The smallest first.
     hulls: Vec<Hull>,
+    /// The medium around all of them.
     around_camera: Option<String>,
     /// By material: something else is within its surfaces than around them. Empty where the scene has no media.
     is_hull: Vec<bool>,
@@ -145,10 +146,17 @@ impl Writer<'_> {
         }
         let is_hull = self.original.materials_that(is_hull);
         let bodies = self.original.shapes.iter().filter(|shape| is_hull[shape.material]);
-        let hull = |shape: &Shape| Some(Hull { bounds: bounds(shape)?, holds: self.held_by(shape.material) });
+        let hull = |shape: &Shape| Some(Hull { bounds: shape.bounds()?, holds: self.held_by(shape.material) });
         let mut hulls: Vec<Hull> = bodies.filter_map(hull).collect();
         hulls.sort_by(|a, b| a.size().total_cmp(&b.size()));
-        Surroundings { hulls, around_camera: self.medium_around_camera(), is_hull }
+        // A body of that medium around the camera is left by rays that go out of it.
+        let camera = self.original.camera.position;
+        let is_left = |medium: &String| {
+            let is_around = |[low, high]: [DVec3; 2]| camera.cmpge(low).all() && camera.cmple(high).all();
+            hulls.iter().any(|hull| hull.holds.as_ref() == Some(medium) && is_around(hull.bounds))
+        };
+        let around_camera = self.medium_around_camera().filter(|medium| !is_left(medium));
+        Surroundings { hulls, around_camera, is_hull }
     }
 
     /// The shape with what it holds and what is around it; around shapes of groups it is the camera's medium.
@@ -156,7 +164,7 @@ impl Writer<'_> {
         let is_hull = |shape: &&Shape| self.surroundings.is_hull.get(shape.material) == Some(&true);
         let Some(shape) = shape.filter(is_hull) else { return element };
         let interior = self.held_by(shape.material);
-        let exterior = self.surroundings.around(bounds(shape).filter(|_| !is_of_group));
+        let exterior = self.surroundings.around(shape.bounds().filter(|_| !is_of_group));
         let element = match &interior {
             Some(id) => element.named_reference("interior", id),
             None => element,
@@ -277,35 +285,6 @@ fn phase(Phase(lobes): &Phase) -> Element {
         });
     }
     made.unwrap_or_else(|| Element::new("phase", "isotropic"))
-}
-
-/// A box around a shape; None of what is infinite.
-fn bounds(shape: &Shape) -> Option<[DVec3; 2]> {
-    let map = shape.transform.to_affine();
-    let of_points = |points: &mut dyn Iterator<Item = DVec3>| {
-        let mut placed = points.map(|point| map.transform_point3(point));
-        let first = placed.next()?;
-        Some(placed.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]))
-    };
-    let of_box = |low: DVec3, high: DVec3| {
-        let corner = |index: usize| DVec3::select(glam::BVec3::new(index & 1 != 0, index & 2 != 0, index & 4 != 0), high, low);
-        of_points(&mut (0..8).map(corner))
-    };
-    match &shape.geometry {
-        Geometry::Mesh(mesh) => of_points(&mut mesh.positions.iter().map(|position| position.as_dvec3())),
-        Geometry::Sphere(sphere) => of_box(sphere.center - sphere.radius, sphere.center + sphere.radius),
-        Geometry::Box(cuboid) => of_box(cuboid.min, cuboid.max),
-        Geometry::Cylinder(tube) => {
-            let [from, to] = [tube.from, tube.to];
-            of_box(from.min(to) - tube.radius, from.max(to) + tube.radius)
-        }
-        Geometry::Disk(disk) => of_box(disk.center - disk.radius, disk.center + disk.radius),
-        Geometry::Rectangle(sheet) => {
-            let far = sheet.corner + sheet.edge_u + sheet.edge_v;
-            of_points(&mut [sheet.corner, sheet.corner + sheet.edge_u, sheet.corner + sheet.edge_v, far].into_iter())
-        }
-        Geometry::Plane(_) => None,
-    }
 }
 
 #[cfg(test)]
