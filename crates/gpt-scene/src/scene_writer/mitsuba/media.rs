@@ -14,8 +14,8 @@ use super::xml::{Element, matrix};
 use crate::load::volume::write_mitsuba;
 use crate::math::is_upright;
 use crate::scene::{
-    ColorInput, Geometry, Material, MaterialId, MaterialKind, Medium, MediumGrids, MediumId, Outside, Phase, PhaseKind,
-    PhaseLobe, Shape, Volume, VolumeFilter, VoxelGrid,
+    ColorInput, Material, MaterialId, MaterialKind, Medium, MediumGrids, MediumId, Outside, Phase, PhaseKind, PhaseLobe, Shape,
+    Volume, VolumeFilter, VoxelGrid,
 };
 use crate::spectrum::Spectrum;
 
