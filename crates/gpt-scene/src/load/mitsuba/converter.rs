@@ -9,7 +9,7 @@ use glam::DAffine3;
 
 use super::document::Reader;
 use super::input::Texels;
-use super::media::Media;
+use super::met_media::MetMedia;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::file::shape::{ShapeEntry, TransformEntry};
@@ -65,7 +65,7 @@ pub struct Converter<'a> {
     /// Groups that instances have named, and the order in which they did first.
     pub groups: HashMap<*const Plugin, StoredGroup>,
     pub group_order: Vec<*const Plugin>,
-    pub media: Media,
+    pub media: MetMedia,
 }
 
 /// A group of shapes that instances name.

@@ -15,6 +15,7 @@ mod input;
 mod limits;
 mod media;
 mod mesh_file;
+mod met_media;
 mod metals;
 mod nesting;
 mod number;
@@ -38,7 +39,7 @@ use glam::DAffine3;
 
 use self::converter::Converter;
 use self::document::Reader;
-use self::media::Media;
+use self::met_media::MetMedia;
 use self::plugin::Plugin;
 use super::error::SceneError;
 use super::files::Files;
@@ -80,7 +81,7 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         copies: HashMap::new(),
         groups: HashMap::new(),
         group_order: Vec::new(),
-        media: Media::default(),
+        media: MetMedia::default(),
     };
     converter.scene(&root, options)?;
     converter.report_unused(&root);

@@ -19,7 +19,7 @@ use crate::scene::{
 };
 use crate::spectrum::Spectrum;
 
-/// Where a shape is and what it holds.
+/// A shape's place and what it holds.
 struct Hull {
     bounds: [DVec3; 2],
     /// None: nothing.
@@ -44,7 +44,7 @@ pub struct Surroundings {
 }
 
 impl Writer<'_> {
-    /// Whether a path meets media.
+    /// True where a path meets media.
     pub fn has_media(&self) -> bool {
         let is_filled = |material: &Material| material.interior.is_some() || absorbs(&material.kind).is_some();
         self.original.camera_medium.is_some() || self.original.materials.iter().any(is_filled)
@@ -139,7 +139,7 @@ impl Writer<'_> {
         medium_id(tables.get(id).and_then(|table| text(*table, "name")).unwrap_or_default())
     }
 
-    /// What stands around what.
+    /// Finds for later what stands around what.
     pub fn find_surroundings(&self) -> Surroundings {
         if !self.has_media() {
             return Surroundings::default();

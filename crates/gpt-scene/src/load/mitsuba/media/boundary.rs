@@ -1,4 +1,4 @@
-//! Where media are: behind and before the surfaces of shapes.
+//! The places of media: behind and before the surfaces of shapes.
 //!
 //! There a shape says what is on both of its sides, and one that says nothing leaves a path in the medium that it is in. Here a body says what it
 //! holds, and is within whatever is around it. So what is around a shape is found by the boxes around all of them, and what a shape says otherwise
@@ -6,60 +6,18 @@
 
 use std::rc::Rc;
 
-use glam::DVec3;
-
-use super::Media;
 use crate::load::error::SceneError;
 use crate::load::file::material::blend_weight::{BlendWeightEntry, FresnelWeight};
 use crate::load::file::material::{MaterialEntry, blend, mirror, pass};
 use crate::load::file::shape::ShapeEntry;
 use crate::load::mitsuba::converter::Converter;
+use crate::load::mitsuba::met_media::{Boundary, Sides};
 use crate::load::mitsuba::plugin::Plugin;
 
 /// Most pairs of shapes that are looked at to find which is within which.
 const MOST_PAIRS: usize = 1 << 24;
 /// Reflections between the faces of a thin wall; half of what is left after them is lost.
 const BETWEEN_FACES: usize = 5;
-
-/// The media on the sides of a shape.
-#[derive(Default)]
-pub struct Sides {
-    /// Behind its surface; none also where nothing would see it.
-    pub interior: Option<Rc<Plugin>>,
-    /// Before its surface.
-    exterior: Option<Rc<Plugin>>,
-    /// It says of a side what is there.
-    is_boundary: bool,
-}
-
-/// A shape that light goes through.
-pub struct Boundary {
-    plugin: Rc<Plugin>,
-    /// Its number in the scene.
-    shape: usize,
-    sides: Sides,
-    /// The lower and upper corner of the box around it; None of what is infinite.
-    bounds: Option<[DVec3; 2]>,
-}
-
-impl Boundary {
-    fn is_within(&self, other: &Self) -> bool {
-        let (Some([low, high]), Some([other_low, other_high])) = (self.bounds, other.bounds) else { return false };
-        let slack = (other_high - other_low) * 1e-6;
-        low.cmpge(other_low - slack).all() && high.cmple(other_high + slack).all() && self.volume() < other.volume()
-    }
-
-    /// A measure by which boxes are ordered, flat ones too.
-    fn volume(&self) -> f64 {
-        self.bounds.map_or(f64::INFINITY, |[low, high]| (high - low).length())
-    }
-}
-
-impl Media {
-    fn around_sensor(&self) -> Option<&Rc<Plugin>> {
-        self.around_sensor.as_ref()
-    }
-}
 
 impl Converter<'_> {
     /// True of a shape of a version before 2 that bounds a medium by itself: it has no BSDF and no emitter.
@@ -89,10 +47,10 @@ impl Converter<'_> {
     pub fn around_medium(&mut self, shape: &Rc<Plugin>, material: String, sides: &Sides) -> Result<String, SceneError> {
         let medium = match (&sides.interior, sides.is_boundary) {
             (Some(interior), _) => self.medium(interior)?,
-            // What is around the others is known once all shapes are.
+            // The surroundings of the others are known once all shapes are.
             _ if !self.media.in_group => return Ok(material),
             (None, true) => self.clear_medium(shape),
-            (None, false) => match self.media.around_sensor().cloned() {
+            (None, false) => match self.media.around_sensor.clone() {
                 Some(around) if self.is_body(&material) => self.medium(&around)?,
                 _ => return Ok(material),
             },
@@ -107,7 +65,7 @@ impl Converter<'_> {
             return Ok(known.clone());
         }
         let (material, medium) = &key;
-        // What was made last is asked for first.
+        // The one made last is asked for first.
         let entry = self.scene.file.material.iter().rev().find(|entry| entry.name() == material.as_str());
         let Some(mut entry) = entry.cloned() else { return Ok(material.clone()) };
         if is_thin(&entry) {
@@ -146,7 +104,7 @@ impl Converter<'_> {
         };
         let mirror = add("mirror of a thin wall", MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }));
         let nothing = add("behind a thin wall", MaterialEntry::Pass(pass::Keys::default()));
-        // Where light passes the face, and where the face reflects it.
+        // A blend of what is where light passes the face, and where the face reflects it.
         let by_face = |passed: String, reflected: String| {
             let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
             MaterialEntry::Blend(blend::Keys::of([passed, reflected], weight, &place))
@@ -184,7 +142,7 @@ impl Converter<'_> {
             std::mem::take(&mut self.media.boundaries).into_iter().partition(|boundary| boundary.shape < before);
         self.media.boundaries = kept;
         for boundary in of_group.into_iter().filter(|boundary| boundary.sides.is_boundary) {
-            let around = self.media.around_sensor().cloned();
+            let around = self.media.around_sensor.clone();
             self.report_exterior(&boundary, around.as_ref());
         }
     }
@@ -199,12 +157,12 @@ impl Converter<'_> {
         if hulls.len().saturating_mul(boundaries.len()) > MOST_PAIRS {
             hulls.clear();
         }
-        hulls.sort_by(|a, b| a.volume().total_cmp(&b.volume()));
+        hulls.sort_by(|a, b| a.size().total_cmp(&b.size()));
         for boundary in &boundaries {
             let hull = hulls.iter().find(|hull| boundary.is_within(hull));
             let around = match hull {
                 Some(hull) => hull.sides.interior.clone(),
-                None => self.media.around_sensor().cloned(),
+                None => self.media.around_sensor.clone(),
             };
             if boundary.sides.is_boundary {
                 self.report_exterior(boundary, around.as_ref());
@@ -245,7 +203,7 @@ impl Converter<'_> {
         if let Some(known) = self.media.bodies.get(name) {
             return *known;
         }
-        // Blends share their parts: each is looked at once. What was made last is asked for first.
+        // Blends share their parts: each is looked at once. The one made last is asked for first.
         let entry = self.scene.file.material.iter().rev().find(|entry| entry.name() == name);
         let is_body = match entry {
             Some(entry @ (MaterialEntry::Glass(_) | MaterialEntry::RoughGlass(_))) => !is_thin(entry),

@@ -13,11 +13,9 @@ mod presets;
 mod tests;
 mod volume;
 
-use std::collections::HashMap;
 use std::num::NonZeroU32;
 use std::rc::Rc;
 
-use self::boundary::Boundary;
 use self::volume::Parameter;
 use super::converter::Converter;
 use super::plugin::Plugin;
@@ -27,52 +25,6 @@ use crate::load::file::medium::MediumEntry;
 use crate::load::file::value::{Checked, Exactly, LARGEST, Located, NonNegative};
 use crate::load::file::volume::{OutsideName, VolumeEntry};
 use crate::spectrum::Spectrum;
-
-/// Integrators that render media; the others go through them as if they were empty.
-const VOLUMETRIC: [&str; 11] = [
-    "volpath",
-    "volpathmis",
-    "prbvolpath",
-    "volpath_simple",
-    "bdpt",
-    "mlt",
-    "pssmlt",
-    "erpt",
-    "photonmapper",
-    "ptracer",
-    "volprim_rf_basic",
-];
-/// Integrators around others.
-const AROUND: [&str; 5] = ["aov", "moment", "stokes", "multichannel", "adaptive"];
-
-/// Media that were met so far.
-#[derive(Default)]
-pub struct Media {
-    /// Their names, by their plugins.
-    names: HashMap<*const Plugin, String>,
-    /// The one that the sensor is within.
-    around_sensor: Option<Rc<Plugin>>,
-    /// How reports call the integrator, if that does not render media.
-    blind: Option<String>,
-    boundaries: Vec<Boundary>,
-    /// The shapes that are met are a group's, which instances place.
-    in_group: bool,
-    /// Materials that enclose a medium, by the names of the material without it and of the medium.
-    filled: HashMap<(String, String), String>,
-    /// Materials that light gets into and is bent by, by their names.
-    bodies: HashMap<String, bool>,
-    /// The name of a medium that neither takes nor gives.
-    clear: Option<String>,
-}
-
-impl Media {
-    /// Notes whether media are rendered.
-    pub fn note_integrator(&mut self, plugin: &Plugin) {
-        if !AROUND.contains(&plugin.name.as_str()) {
-            self.blind = (!VOLUMETRIC.contains(&plugin.name.as_str())).then(|| plugin.title());
-        }
-    }
-}
 
 impl Converter<'_> {
     /// Reports that media of a plugin are left out. Whether they are.

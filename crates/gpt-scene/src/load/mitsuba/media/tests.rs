@@ -1,4 +1,4 @@
-//! What media of Mitsuba's scenes become.
+//! Media of Mitsuba's scenes become media of ours.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -102,7 +102,7 @@ fn every_way_to_say_how_dense_a_medium_is() {
             [1.0, 1.5, 2.0],
             [1.0, 1.5, 2.0],
         ),
-        // As 0.6 had it.
+        // The way of 0.6.
         (
             "<rgb name=\"sigmaS\" value=\"1, 2, 3\"/><rgb name=\"sigmaA\" value=\"0.5\"/><float name=\"scale\" value=\"2\"/>",
             [1.0; 3],
@@ -205,7 +205,7 @@ fn media_are_in_shapes_and_around_the_sensor() {
     assert_eq!(scene.media.len(), 2);
     // Around the inner ball is milk, and not fog.
     assert_eq!(report(&scene).matches("exterior medium of a shape").count(), 1, "{}", report(&scene));
-    // What is written of it says the same.
+    // The scene file that is written of it says the same.
     let folder = tempdir().unwrap();
     let path = folder.path().join("b.toml");
     save_scene(&scene, &path).unwrap();
@@ -342,7 +342,7 @@ fn imported_media_keep_their_optical_depth() {
 const CLOUD: &str = "<volume type=\"gridvolume\" name=\"sigma_t\"><string name=\"filename\" value=\"cloud.vol\"/>MORE</volume>";
 const TINTS: &str = "<volume type=\"gridvolume\" name=\"albedo\"><string name=\"filename\" value=\"tints.vol\"/></volume>";
 
-/// What is lost and what is scattered at a point.
+/// Light that is lost and light that is scattered, per unit length, at a point.
 fn at(medium: &Medium, point: DVec3) -> [Spectrum; 2] {
     let Some(grids) = &medium.grids else { return [medium.extinction(), medium.scattering] };
     let density = grids.density().value_at(point);

@@ -24,7 +24,7 @@ use crate::spectrum::Spectrum;
 
 /// A parameter of a medium.
 pub enum Parameter {
-    /// The same value everywhere within a box, which this map makes of the unit cube.
+    /// One value everywhere within a box, which this map makes of the unit cube.
     Constant {
         value: Spectrum,
         to_world: DAffine3,
