@@ -10,6 +10,7 @@ use toml::Table;
 
 use super::Writer;
 use super::keys::{entries, table, text};
+use super::surroundings::{Hull, Surroundings};
 use super::xml::{Element, matrix};
 use crate::load::volume::write_mitsuba;
 use crate::math::is_upright;
@@ -18,30 +19,6 @@ use crate::scene::{
     Volume, VolumeFilter, VoxelGrid,
 };
 use crate::spectrum::Spectrum;
-
-/// A shape's place and what it holds.
-struct Hull {
-    bounds: [DVec3; 2],
-    /// None: nothing.
-    holds: Option<String>,
-}
-
-impl Hull {
-    fn size(&self) -> f64 {
-        self.bounds[0].distance(self.bounds[1])
-    }
-}
-
-/// The bodies of a scene, by which it is found what is around a shape.
-#[derive(Default)]
-pub struct Surroundings {
-    /// The smallest first.
-    hulls: Vec<Hull>,
-    /// The medium around all of them.
-    around_camera: Option<String>,
-    /// By material: something else is within its surfaces than around them. Empty where the scene has no media.
-    is_hull: Vec<bool>,
-}
 
 impl Writer<'_> {
     /// True where a path meets media.
@@ -193,20 +170,6 @@ impl Writer<'_> {
             to_visit.extend(material.parts().iter().rev());
         }
         None
-    }
-}
-
-impl Surroundings {
-    /// The id of the medium around a box.
-    fn around(&self, bounds: Option<[DVec3; 2]>) -> Option<&str> {
-        let hull = bounds.and_then(|[low, high]| {
-            self.hulls.iter().find(|hull| {
-                let slack = (hull.bounds[1] - hull.bounds[0]) * 1e-6;
-                let is_within = low.cmpge(hull.bounds[0] - slack).all() && high.cmple(hull.bounds[1] + slack).all();
-                is_within && low.distance(high) < hull.size()
-            })
-        });
-        hull.map_or(self.around_camera.as_deref(), |hull| hull.holds.as_deref())
     }
 }
 

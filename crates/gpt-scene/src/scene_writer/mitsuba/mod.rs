@@ -7,6 +7,7 @@ mod keys;
 mod material;
 mod media;
 mod shape;
+mod surroundings;
 mod xml;
 
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ use glam::DVec3;
 use toml::Table;
 
 use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
-use self::media::Surroundings;
+use self::surroundings::Surroundings;
 use self::xml::{Element, Xml};
 use super::scene_file::scene_text;
 use super::written::WrittenScene;

@@ -64,9 +64,9 @@ material_keys! {
         /// In place of `transmission`: share of light that enters the body through the dielectric's base, is scattered below the surface, and leaves elsewhere; 0 when left out.
         subsurface: Option<Box<Located<Scalar<Fraction>>>>,
         /// Share of light that comes back from below, `base_color` when left out.
-        subsurface_color: Option<Located<Rgb<Fraction>>>,
+        subsurface_color: Option<Box<Located<Rgb<Fraction>>>>,
         /// With `subsurface`: how far light goes below the surface on average before it is scattered or absorbed, in scene units.
-        subsurface_radius: Option<Located<Rgb<Positive>>>,
+        subsurface_radius: Option<Box<Located<Rgb<Positive>>>>,
         /// Mean cosine between the directions before and after it is scattered there, from -0.999 to 0.999; 0 when left out.
         subsurface_anisotropy: Option<Located<Checked<MeanCosine>>>,
         /// Share of the light that the diffuse base would scatter back and scatters on instead, behind the surface; 0 when left out.
@@ -273,15 +273,10 @@ impl Keys {
         let rows = [
             (span(&self.anisotropy_rotation), "anisotropy_rotation", self.anisotropy.is_some(), "anisotropy"),
             (span(&self.anisotropy_direction), "anisotropy_direction", self.anisotropy.is_some(), "anisotropy"),
-            (span(&self.subsurface_color), "subsurface_color", self.subsurface.is_some(), "subsurface"),
-            (span(&self.subsurface_radius), "subsurface_radius", self.subsurface.is_some(), "subsurface"),
+            (boxed_span(&self.subsurface_color), "subsurface_color", self.subsurface.is_some(), "subsurface"),
+            (boxed_span(&self.subsurface_radius), "subsurface_radius", self.subsurface.is_some(), "subsurface"),
             (span(&self.subsurface_anisotropy), "subsurface_anisotropy", self.subsurface.is_some(), "subsurface"),
-            (
-                self.subsurface.as_ref().map(|written| written.place.clone()),
-                "subsurface",
-                self.subsurface_radius.is_some(),
-                "subsurface_radius",
-            ),
+            (boxed_span(&self.subsurface), "subsurface", self.subsurface_radius.is_some(), "subsurface_radius"),
             (span(&self.thin), "thin", self.transmission.is_some(), "transmission"),
             (span(&self.clearcoat_roughness), "clearcoat_roughness", self.clearcoat.is_some(), "clearcoat"),
             (span(&self.coat_normal_map), "coat_normal_map", self.clearcoat.is_some(), "clearcoat"),
@@ -327,5 +322,9 @@ impl Keys {
 
 /// Place of a key that is written.
 fn span<T>(written: &Option<Located<T>>) -> Option<Place> {
+    written.as_ref().map(|written| written.place.clone())
+}
+
+fn boxed_span<T>(written: &Option<Box<Located<T>>>) -> Option<Place> {
     written.as_ref().map(|written| written.place.clone())
 }

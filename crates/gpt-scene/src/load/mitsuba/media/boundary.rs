@@ -6,10 +6,13 @@
 
 use std::rc::Rc;
 
+use glam::DVec3;
+
 use crate::load::error::SceneError;
 use crate::load::file::material::blend_weight::{BlendWeightEntry, FresnelWeight};
 use crate::load::file::material::{MaterialEntry, blend, mirror, pass};
 use crate::load::file::shape::ShapeEntry;
+use crate::load::file::value::vector;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::met_media::{Boundary, Sides};
 use crate::load::mitsuba::plugin::Plugin;
@@ -158,11 +161,12 @@ impl Converter<'_> {
             hulls.clear();
         }
         hulls.sort_by(|a, b| a.size().total_cmp(&b.size()));
+        let around_all = self.media.around_sensor.clone().filter(|medium| !self.leaves_with_rays(medium, &hulls));
         for boundary in &boundaries {
             let hull = hulls.iter().find(|hull| boundary.is_within(hull));
             let around = match hull {
                 Some(hull) => hull.sides.interior.clone(),
-                None => self.media.around_sensor.clone(),
+                None => around_all.clone(),
             };
             if boundary.sides.is_boundary {
                 self.report_exterior(boundary, around.as_ref());
@@ -179,6 +183,15 @@ impl Converter<'_> {
             }
         }
         Ok(())
+    }
+
+    /// The sensor is within a body of this medium, which rays leave that go out of the body.
+    fn leaves_with_rays(&self, medium: &Rc<Plugin>, hulls: &[&Boundary]) -> bool {
+        let Some(camera) = &self.scene.file.camera else { return false };
+        let eye = vector(camera.position);
+        let is_around = |[low, high]: [DVec3; 2]| eye.cmpge(low).all() && eye.cmple(high).all();
+        let holds = |hull: &Boundary| hull.sides.interior.as_ref().is_some_and(|interior| Rc::ptr_eq(interior, medium));
+        hulls.iter().any(|hull| holds(hull) && hull.bounds.is_some_and(is_around))
     }
 
     fn report_exterior(&mut self, boundary: &Boundary, around: Option<&Rc<Plugin>>) {

@@ -236,6 +236,21 @@ fn bodies_of_glass_hold_what_is_around_them() {
     assert!(report(&scene).contains("no medium outside of a shape"), "{}", report(&scene));
 }
 
+/// Fog of a room that the sensor is in ends with the room.
+#[test]
+fn fog_of_a_room_is_not_around_the_room() {
+    let room = |radius: f64| ball(radius, "<bsdf type=\"null\"/><ref name=\"interior\" id=\"fog\"/>");
+    let beside = format!("<shape type=\"cube\">{GLASS}<transform name=\"to_world\"><translate x=\"90\"/></transform></shape>");
+    let scene =
+        read(&document(VOLPATH, IN_FOG, &format!("{FOG}{}{}{beside}", room(30.0), ball(1.0, "<bsdf type=\"dielectric\"/>"))));
+    assert_eq!(report(&scene), "");
+    assert_eq!([0, 1, 2].map(|shape| within(&scene, shape)), [Some("fog"), Some("fog"), None]);
+    // The control: the sensor stands beside a smaller room, whose fog is around it all the same.
+    let scene = read(&document(VOLPATH, IN_FOG, &format!("{FOG}{}{beside}", room(3.0))));
+    assert_eq!(within(&scene, 1), Some("fog"));
+    assert!(report(&scene).contains("no medium outside of a shape"), "{}", report(&scene));
+}
+
 /// Around shapes of a group that instances place is the sensor's medium.
 #[test]
 fn groups_hold_media() {

@@ -83,7 +83,7 @@ impl Converter<'_> {
                 volume.properties.iter().for_each(|property| property.used.set(true));
                 volume.children.iter().for_each(|child| child.used.set(true));
                 let what = format!("volume `{other}`");
-                self.drop(&volume, &what, &format!("{default} is taken everywhere"));
+                self.drop(&volume, &what, format!("{default} is taken everywhere"));
                 Ok(Parameter::Constant { value: Spectrum::grey(default), to_world: DAffine3::IDENTITY })
             }
         }
