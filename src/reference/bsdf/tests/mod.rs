@@ -155,7 +155,7 @@ fn examples() -> Vec<(String, Lobe, f64)> {
         let parameters = parameters?;
         // Light that goes through a plate is in the same medium again.
         let is_plate = matches!(parameters.lobe, LobeKind::ThinGlass | LobeKind::RoughThinGlass)
-            || matches!(kind, MaterialKind::Principled(principled) if principled.thin || principled.transmission == ColorInput::grey(0.0));
+            || matches!(kind, MaterialKind::Principled(principled) if principled.thin || principled.let_through() == ColorInput::grey(0.0));
         let ior = parameters.ior.filter(|_| !is_plate).unwrap_or(1.0);
         Some((format!("{name}: {}", keys.replace('\n', ", ")), lobe?, ior))
     };
