@@ -54,7 +54,9 @@ fn load_path(slot: u32) -> Path {
         path.lit_from = path_state[PLANE_LIT_FROM + slot].xyz;
     }
     if HAS_MEDIA {
-        path.media = bitcast<vec2<u32>>(path_state[PLANE_MEDIA + slot].xy);
+        let around = path_state[PLANE_MEDIA + slot];
+        path.media = bitcast<vec2<u32>>(around.xy);
+        path.way_before = around.z;
     }
     return path;
 }
@@ -69,7 +71,7 @@ fn store_path(slot: u32, path: Path) {
         path_state[PLANE_LIT_FROM + slot] = vec4<f32>(path.lit_from, 0.0);
     }
     if HAS_MEDIA {
-        path_state[PLANE_MEDIA + slot] = vec4<f32>(bitcast<vec2<f32>>(path.media), 0.0, 0.0);
+        path_state[PLANE_MEDIA + slot] = vec4<f32>(bitcast<vec2<f32>>(path.media), path.way_before, 0.0);
     }
 }
 

@@ -18,13 +18,15 @@ struct Crossing {
     key: u32,
     // The share of light that is left so far.
     share: Spectrum,
+    // The way from the surface that was crossed last to the ray's origin, which lies a little behind it.
+    way_before: f32,
     // Surfaces that were crossed.
     crossed: u32,
     goes_on: bool,
 }
 
 fn begin_crossing(ray: Ray, distance: f32, media: MediumStack, key: u32, exists: bool) -> Crossing {
-    return Crossing(ray, distance, media, key, WHITE, 0u, exists);
+    return Crossing(ray, distance, media, key, WHITE, 0.0, 0u, exists);
 }
 
 // Goes on to `hit`, the first thing on the rest of the way.
@@ -32,14 +34,14 @@ fn cross_surface(crossing: Crossing, hit: Hit) -> Crossing {
     var next = crossing;
     let medium = innermost(crossing.media);
     if hit.primitive == NONE {
-        next.share *= transmittance_along(medium, crossing.ray, crossing.remaining, mix_bits(crossing.key + crossing.crossed));
+        next.share *= transmittance_along(medium, crossing.ray, crossing.remaining + crossing.way_before, mix_bits(crossing.key + crossing.crossed));
         next.goes_on = false;
         return next;
     }
     let surface = hit_surface(crossing.ray, hit);
     next.share *= null_share(surface, crossing.ray);
     if max_component(next.share) > 0.0 {
-        let way = distance(surface.position, crossing.ray.origin);
+        let way = distance(surface.position, crossing.ray.origin) + crossing.way_before;
         next.share *= transmittance_along(medium, crossing.ray, way, mix_bits(crossing.key + crossing.crossed));
     }
     next.crossed++;
@@ -52,6 +54,7 @@ fn cross_surface(crossing: Crossing, hit: Hit) -> Crossing {
         next.media = media_towards(surface, crossing.ray.direction, crossing.media);
     }
     next.ray.origin = offset_origin(surface, crossing.ray.direction);
+    next.way_before = max(dot(next.ray.origin - surface.position, crossing.ray.direction), 0.0);
     // Shorter by what rounding may have moved the origin, so that the way still ends before the light.
     next.remaining -= dot(next.ray.origin - crossing.ray.origin, crossing.ray.direction) + 4.0 * surface.error;
     return next;

@@ -61,10 +61,13 @@ fn arrive_through_grids(path: Path, medium: Medium, ray_length: f32, vertex: u32
     var arrival = Arrival(BLACK, path.throughput, 0u, ray_length);
     let random = random_block(path.pixel, path.sample_in_pass, FIRST_MEDIUM_BLOCK + vertex - 1u);
     let scatters = (medium.flags & MEDIUM_SCATTERS) != 0u;
+    // The medium begins at the surface that the ray left.
+    let ray = Ray(path.ray.origin - path.way_before * path.ray.direction, path.ray.direction);
+    let length_of_ray = min(ray_length + path.way_before, FARTHEST);
     if HAS_MEDIUM_PASSAGE {
         let emits = HAS_MEDIUM_EMISSION && any(medium.emission != BLACK);
         if emits || !scatters {
-            let passage = pass_through(medium, path.ray, ray_length, emits, random.w);
+            let passage = pass_through(medium, ray, length_of_ray, emits, random.w);
             arrival.radiance = path.throughput * passage.given_off;
             if !scatters {
                 arrival.throughput *= passage.left;
@@ -73,10 +76,10 @@ fn arrive_through_grids(path: Path, medium: Medium, ray_length: f32, vertex: u32
     }
     if HAS_SCATTERING {
         if scatters {
-            let flight = track(medium, path.throughput, path.ray, min(ray_length, FARTHEST), random.z);
+            let flight = track(medium, path.throughput, ray, length_of_ray, random.z);
             arrival.throughput *= flight.weight;
             arrival.phase = select(0u, medium.phase, flight.is_scattered);
-            arrival.distance = flight.distance;
+            arrival.distance = max(flight.distance - path.way_before, 0.0);
         }
     }
     return arrival;
@@ -97,7 +100,8 @@ fn arrive_through_medium(path: Path, ray_length: f32, vertex: u32) -> Arrival {
         arrival.throughput *= light_left(medium.extinction, ray_length);
         return arrival;
     }
-    let length_of_ray = min(ray_length, FARTHEST);
+    // The medium begins at the surface that the ray left.
+    let length_of_ray = min(ray_length + path.way_before, FARTHEST);
     let random = random_block(path.pixel, path.sample_in_pass, FIRST_MEDIUM_BLOCK + vertex - 1u);
     let chances = flight_chances(medium, path.throughput, length_of_ray);
     let event = open_float(random.x);
@@ -115,6 +119,6 @@ fn arrive_through_medium(path: Path, ray_length: f32, vertex: u32) -> Arrival {
         scattering_place(medium, path.ray, length_of_ray, chances, pivot, event / chances.scatters, open_float(random.y));
     arrival.throughput *= place.weight;
     arrival.phase = medium.phase;
-    arrival.distance = place.distance;
+    arrival.distance = max(place.distance - path.way_before, 0.0);
     return arrival;
 }

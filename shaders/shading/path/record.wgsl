@@ -27,6 +27,8 @@ struct Path {
 #if MEDIA
     // The media around the ray.
     media: MediumStack,
+    // The way through them from the surface that the ray left to its origin, which lies a little above.
+    way_before: f32,
 #endif
 }
 
@@ -144,6 +146,11 @@ fn arriving_throughput(path: Path, ray_length: f32) -> Spectrum {
     }
 }
 
+// The way along a ray from the surface that it left to its origin.
+fn way_before(surface: Surface, ray: Ray) -> f32 {
+    return max(dot(ray.origin - surface.position, ray.direction), 0.0);
+}
+
 // The path along the ray that was drawn where it met a surface.
 fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput: Spectrum, roulette_scale: f32) -> Path {
     var path = incoming;
@@ -159,6 +166,9 @@ fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput
         // Through a null surface goes the ray that was drawn before.
         path.pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);
         path.lit_from = select(path.ray.origin, incoming.lit_from, drawn.is_null);
+    }
+    if HAS_MEDIA {
+        path.way_before = way_before(surface, path.ray);
     }
     if HAS_MEDIA && (!drawn.is_null || (HAS_OPEN_BOUNDARIES && is_open_boundary(surface.material))) {
         path.media = media_towards(surface, drawn.wi, incoming.media);
