@@ -8,6 +8,7 @@
 //! samples can find is shared out by multiple importance sampling, see [`super::mis`].
 
 mod setup;
+mod shadow;
 
 use std::sync::Arc;
 
@@ -15,10 +16,10 @@ use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
-use super::emission::{emitted, null_weight};
+use super::emission::emitted;
 use super::free_flight::fly;
 use super::guided::GuidedBsdf;
-use super::intersect::{Hit, PathTime, Ray, Surface, SurfaceId, World};
+use super::intersect::{Hit, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::medium::{MediumStack, given_off, left};
 use super::mis;
@@ -26,11 +27,10 @@ use super::phase::Scattering;
 use super::roulette::{self, Expectation};
 use super::scatterer::{Interaction, Scatterer};
 use super::trace::{LightConnection, PathVisitor};
-use super::tracking::{Passage, Stream, pass_through, track};
+use super::tracking::{Stream, pass_through, track};
 use crate::sampling::hash::mix;
 use crate::sampling::{CameraDimension, Dimension, Guide, LitPoint, MediumDimension, PathSampler, VertexDimension};
-use crate::scene::media::MOST_CROSSINGS;
-use crate::scene::{Emitters, Estimator, Filling, MaterialId, Media, MediumGrids, Scene};
+use crate::scene::{Emitters, Estimator, Filling, Media, MediumGrids, Scene};
 use crate::spectrum::Spectrum;
 
 /// A scene made ready for tracing paths.
@@ -438,71 +438,6 @@ impl Integrator {
             visitor.unguided(scatterer.unguided(light.wi, Density::SolidAngle(scattering.pdf)));
         }
         visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: !through.is_black(), contribution });
-    }
-
-    /// The share of a sample's light that comes along its shadow ray, which begins in the media of a stack: through all
-    /// surfaces on the way, and through media.
-    fn shadow_transmittance(&self, ray: Ray, light: &LightSample, media: (MediumStack, u32), time: &PathTime) -> Spectrum {
-        let share = |surface: &Surface| null_weight(&self.scene, surface, -ray.direction);
-        let lets_through = |material: MaterialId| self.lights.lets_through(material);
-        if self.media.order_shadow_rays() {
-            return self.transmittance_across_boundaries(ray, light, media, time);
-        }
-        // No boundary of a medium lets a shadow ray through, so it stays in the one where it begins
-        let through_surfaces = self.world.transmittance(ray, light.distance, light.target, time, lets_through, share);
-        let (stack, numbers) = media;
-        self.medium_transmittance(stack, (&ray, light.distance), numbers) * through_surfaces
-    }
-
-    /// The share of light that is left after a distance within the innermost medium; an estimate by random numbers of this key where it differs from
-    /// place to place.
-    fn medium_transmittance(&self, stack: MediumStack, (ray, distance): (&Ray, f64), numbers: u32) -> Spectrum {
-        let Some(filling) = self.media.filling(stack.innermost()) else { return Spectrum::WHITE };
-        let Some(grids) = &filling.grids else { return left(filling.extinction, distance) };
-        let mut numbers = Stream::new(numbers);
-        let Passage { left, .. } = pass_through((filling, grids), (ray, distance), false, || numbers.draw());
-        left
-    }
-
-    /// The share of a sample's light that comes along its shadow ray, from surface to surface in their order, because
-    /// they decide which medium lies behind them.
-    fn transmittance_across_boundaries(
-        &self,
-        ray: Ray,
-        light: &LightSample,
-        (stack, numbers): (MediumStack, u32),
-        time: &PathTime,
-    ) -> Spectrum {
-        let (mut ray, mut stack, mut share, mut remaining) = (ray, stack, Spectrum::WHITE, light.distance);
-        for crossed in 0..MOST_CROSSINGS {
-            let through = |stack: MediumStack, ray: &Ray, distance: f64| {
-                self.medium_transmittance(stack, (ray, distance), mix(numbers.wrapping_add(crossed)))
-            };
-            let hit = self.world.closest(ray, time).filter(|hit| hit.distance < remaining);
-            let Some(hit) = hit else { return share * through(stack, &ray, remaining) };
-            let surface = self.world.surface(&ray, &hit, time);
-            if !self.lights.lets_through(surface.owner.material) {
-                // The light's own surface is the end of the way
-                let is_light = light.target.is_some_and(|target| hit.surface == SurfaceId::Primitive(target));
-                return if is_light { share * through(stack, &ray, hit.distance) } else { Spectrum::BLACK };
-            }
-            let unmet = null_weight(&self.scene, &surface, -ray.direction);
-            share *= unmet;
-            if !share.is_black() {
-                share *= through(stack, &ray, hit.distance);
-            }
-            if share.is_black() {
-                return share;
-            }
-            if self.media.is_open(surface.owner.material) {
-                let front = surface.point.normal.dot(ray.direction) < 0.0;
-                stack = stack.towards(&self.media, &surface, front, ray.direction);
-            }
-            let origin = surface.point.leave_towards(ray.direction);
-            remaining -= (origin - ray.origin).dot(ray.direction);
-            ray.origin = origin;
-        }
-        Spectrum::BLACK
     }
 
     /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves

@@ -1,5 +1,5 @@
 // The way of a shadow ray through media and the null surfaces that bound them: from surface to surface in their order, because they decide which medium lies
-// behind them. src/reference/integrator.rs is the same in f64.
+// behind them. src/reference/integrator/shadow.rs is the same in f64.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import core/sampler.wgsl
@@ -54,7 +54,7 @@ fn cross_surface(crossing: Crossing, hit: Hit) -> Crossing {
         next.media = media_towards(surface, crossing.ray.direction, crossing.media);
     }
     next.ray.origin = offset_origin(surface, crossing.ray.direction);
-    next.way_before = max(dot(next.ray.origin - surface.position, crossing.ray.direction), 0.0);
+    next.way_before = way_before(surface, next.ray);
     // Shorter by what rounding may have moved the origin, so that the way still ends before the light.
     next.remaining -= dot(next.ray.origin - crossing.ray.origin, crossing.ray.direction) + 4.0 * surface.error;
     return next;

@@ -1,5 +1,6 @@
 // The media that a ray is in, within the surfaces that enclose them. src/reference/medium.rs is the same in f64.
 #import core/layout.wgsl
+#import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/surface.wgsl
 
@@ -35,6 +36,11 @@ fn leave_medium(media: MediumStack, medium: u32) -> MediumStack {
         return MediumStack(media.x, fourth);
     }
     return MediumStack(media.x, select(media.y, third, fourth == medium));
+}
+
+// The way along a ray from the surface that it left to its origin, which lies a little above: light loses some there too.
+fn way_before(surface: Surface, ray: Ray) -> f32 {
+    return max(dot(ray.origin - surface.position, ray.direction), 0.0);
 }
 
 // The media on the side of a surface that `toward` points to, given those on wo's side.

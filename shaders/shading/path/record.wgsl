@@ -146,11 +146,6 @@ fn arriving_throughput(path: Path, ray_length: f32) -> Spectrum {
     }
 }
 
-// The way along a ray from the surface that it left to its origin.
-fn way_before(surface: Surface, ray: Ray) -> f32 {
-    return max(dot(ray.origin - surface.position, ray.direction), 0.0);
-}
-
 // The path along the ray that was drawn where it met a surface.
 fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput: Spectrum, roulette_scale: f32) -> Path {
     var path = incoming;
