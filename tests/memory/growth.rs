@@ -55,9 +55,22 @@ fn time_of_thread() -> Duration {
     START.elapsed()
 }
 
+/// Makes the allocator keep what it once had: how long it takes to get pages anew depends on the machine, and on whether the sum of what is in
+/// use passes some threshold.
+fn keep_pages() {
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    for (option, value) in [(libc::M_ARENA_MAX, 1), (libc::M_MMAP_THRESHOLD, 1 << 25), (libc::M_TRIM_THRESHOLD, i32::MAX)] {
+        // SAFETY: the call takes numbers only.
+        let status = unsafe { libc::mallopt(option, value) };
+        assert_eq!(status, 1, "the allocator knows the option {option}");
+    }
+}
+
 /// The kinds of work that grow by more than that of twice the size. Quadratic work grows by four.
 fn excess(size: usize, work: impl Fn(usize) + Sync) -> Option<String> {
+    keep_pages();
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    one_thread.install(|| work(2 * size));
     let measure = |size: usize| {
         let mut shortest = Duration::MAX;
         let mut bytes = 0;

@@ -117,12 +117,12 @@ fn add_sky(description: &mut Description, place: &Place) -> Result<(), String> {
 fn add_surfaces(description: &mut Description, ground: Plane, light: Rectangle, place: &Place) -> Result<(), String> {
     let material = Some(place.at(description.free_material_name("(ground)")));
     let keys = diffuse::Keys { reflectance: Colour::constant(Spectrum::grey(GROUND))?, ..Default::default() };
-    add_material(description, MaterialEntry::Diffuse(keys), &material);
+    add_material(description, MaterialEntry::from(keys), &material);
     let plane = ShapeEntry::Plane(plane::Keys::of(ground.point, DVec3::Y, place)?);
     add_shape(description, plane, material, place);
     let material = Some(place.at(description.free_material_name("(light)")));
     let keys = emissive::Keys { radiance: Colour::constant(Spectrum::grey(LIGHT))?, ..Default::default() };
-    add_material(description, MaterialEntry::Emissive(keys), &material);
+    add_material(description, MaterialEntry::from(keys), &material);
     let rectangle = ShapeEntry::Rectangle(rectangle::Keys::of([light.corner, light.edge_u, light.edge_v], place)?);
     add_shape(description, rectangle, material, place);
     Ok(())

@@ -47,14 +47,14 @@ pub struct MediumEntry {
     /// How scattered light is spread over directions; isotropic when left out.
     pub phase: Option<PhaseEntry>,
     /// A grid in the space of the scene, of one number for each voxel or of red, green and blue: from place to place, what is absorbed, scattered and given off is multiplied by it.
-    pub density: Option<Located<VolumeEntry>>,
+    pub density: Option<Box<Located<VolumeEntry>>>,
     /// With `density`, in place of `albedo`: a grid of the share that is scattered of the light that is lost to a ray.
-    pub albedo_grid: Option<Located<VolumeEntry>>,
+    pub albedo_grid: Option<Box<Located<VolumeEntry>>>,
     /// With `density`: a grid by which `emission` is multiplied as well.
-    pub emission_grid: Option<Located<VolumeEntry>>,
+    pub emission_grid: Option<Box<Located<VolumeEntry>>>,
     /// With `density`, in place of `emission_grid`: a grid of temperatures in kelvin. A black body's light is given off, whose brightest channel where
     /// the grid is hottest is `emission`.
-    pub temperature: Option<Located<VolumeEntry>>,
+    pub temperature: Option<Box<Located<VolumeEntry>>>,
 }
 
 /// A phase function.

@@ -188,7 +188,7 @@ impl Surface<'_, '_> {
         let mut entry = if self.material.extensions.contains_key("KHR_materials_unlit") {
             self.approximate("KHR_materials_unlit", "the surface gives light of its colour, which falls on others too");
             let (radiance, two_sided) = (base.colour(&place)?, Some(place.at(true)));
-            MaterialEntry::Emissive(emissive::Keys { radiance, two_sided, ..Default::default() })
+            MaterialEntry::from(emissive::Keys { radiance, two_sided, ..Default::default() })
         } else {
             self.lit(&base)?
         };
@@ -270,7 +270,7 @@ impl Surface<'_, '_> {
         let has_sheen = sheen != Input::grey(0.0);
         if !has_sheen && [&metallic, &transmission, &specular, &clearcoat, &scattered_on].into_iter().all(|share| share.is(0.0)) {
             let reflectance = base.colour(&place)?;
-            return Ok(MaterialEntry::Diffuse(diffuse::Keys { reflectance, ..Default::default() }));
+            return Ok(MaterialEntry::from(diffuse::Keys { reflectance, ..Default::default() }));
         }
         let mut keys = principled::Keys {
             base_color: Some(base.colour(&place)?),
@@ -331,7 +331,7 @@ impl Surface<'_, '_> {
             self.coordinates.get_or_insert(Coordinates { set: 0, map: DAffine2::IDENTITY, second: None });
         }
         self.iridescence(&mut keys)?;
-        Ok(MaterialEntry::Principled(keys))
+        Ok(MaterialEntry::from(keys))
     }
 
     /// A thin film (KHR_materials_iridescence).

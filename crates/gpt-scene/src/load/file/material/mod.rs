@@ -39,7 +39,14 @@ macro_rules! entries {
         #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(rename = "key:type", rename_all = "snake_case")]
         #[schemars(tag = "type", rename = "MaterialEntry")]
-        pub enum MaterialEntry { $($material($module::Keys),)* }
+        pub enum MaterialEntry { $($material(Box<$module::Keys>),)* }
+
+        // Keys are boxed, since some materials have very many and a scene may have very many materials.
+        $(impl From<$module::Keys> for MaterialEntry {
+            fn from(keys: $module::Keys) -> Self {
+                Self::$material(Box::new(keys))
+            }
+        })*
 
         impl MaterialEntry {
             /// Each type, and tables of it without `name` and `type`.

@@ -34,9 +34,9 @@ impl Surface<'_, '_> {
 
     /// The surface by its share, nothing by the rest.
     fn mixed(&mut self, surface: MaterialEntry, share: BlendWeightEntry, what: &str) -> MaterialEntry {
-        let nothing = MaterialEntry::Pass(pass::Keys::default());
+        let nothing = MaterialEntry::from(pass::Keys::default());
         let (first, second) = (self.extra(what, surface), self.extra("rest", nothing));
-        MaterialEntry::Blend(blend::Keys::of([first, second], share, &self.place()))
+        MaterialEntry::from(blend::Keys::of([first, second], share, &self.place()))
     }
 
     /// The surface as far as its alpha says, else what is behind.
@@ -54,7 +54,7 @@ impl Surface<'_, '_> {
             Some(info) => Some(self.base_texture(&info)?),
             None => self.form.paint.as_ref().filter(|paint| paint.has_alpha).map(|paint| paint.texture.clone()),
         };
-        let nothing = || MaterialEntry::Pass(pass::Keys::default());
+        let nothing = || MaterialEntry::from(pass::Keys::default());
         let place = self.place();
         let share = match (map, cutoff) {
             (None, Some(cutoff)) => return Ok(if factor < cutoff { nothing() } else { entry }),

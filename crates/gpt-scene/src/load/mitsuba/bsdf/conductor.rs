@@ -35,7 +35,7 @@ pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed
     if let (None, false) = (&fresnel, rough) {
         // Reflects all light: what is left is the tint.
         let reflectance = Some(plugin.possible(tint.colour(&place))?);
-        return Ok((MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }), false));
+        return Ok((MaterialEntry::from(mirror::Keys { reflectance, ..Default::default() }), false));
     }
     let mut keys = entry::Keys::default();
     match fresnel {
@@ -55,7 +55,7 @@ pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed
         keys.distribution = distribution(converter, plugin)?.then(|| place.at(DistributionEntry::Beckmann));
         keys.masking = Some(place.at(MaskingEntry::Separable));
     }
-    Ok((MaterialEntry::Conductor(keys), false))
+    Ok((MaterialEntry::from(keys), false))
 }
 
 fn is_none(material: &str) -> bool {

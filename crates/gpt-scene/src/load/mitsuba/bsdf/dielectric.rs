@@ -31,7 +31,7 @@ pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
     if plugin.name != "roughdielectric" {
         let thin = plugin.name == "thindielectric";
         let keys = glass::Keys { ior, reflectance, transmittance, thin, ..Default::default() };
-        return Ok((MaterialEntry::Glass(keys), true));
+        return Ok((MaterialEntry::from(keys), true));
     }
     let Widths { alpha, alpha_u, alpha_v } = widths(converter, plugin)?;
     let keys = rough_glass::Keys {
@@ -45,7 +45,7 @@ pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
         masking: Some(place.at(MaskingEntry::Separable)),
         ..Default::default()
     };
-    Ok((MaterialEntry::RoughGlass(keys), true))
+    Ok((MaterialEntry::from(keys), true))
 }
 
 /// `int_ior` over `ext_ior`, numbers or names.

@@ -12,7 +12,7 @@ pub fn diffuse(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, 
     let name = if plugin.has("diffuse_reflectance") { "diffuse_reflectance" } else { "reflectance" };
     let reflectance = converter.reflectance(plugin, name, 0.5)?;
     let reflectance = plugin.possible(reflectance.colour(&plugin.at()))?;
-    Ok((MaterialEntry::Diffuse(entry::Keys { reflectance, ..Default::default() }), false))
+    Ok((MaterialEntry::from(entry::Keys { reflectance, ..Default::default() }), false))
 }
 
 /// Oren and Nayar's model.

@@ -62,16 +62,16 @@ pub type Keyed = (MaterialEntry, bool);
 
 /// The ray goes on.
 pub fn nothing() -> MaterialEntry {
-    MaterialEntry::Pass(pass::Keys::default())
+    MaterialEntry::from(pass::Keys::default())
 }
 
 /// Reflects nothing: the reflectance of a diffuse surface is 0 where none is set.
 pub fn black() -> MaterialEntry {
-    MaterialEntry::Diffuse(diffuse::Keys::default())
+    MaterialEntry::from(diffuse::Keys::default())
 }
 
 /// A diffuse grey.
 pub fn grey(reflectance: f64) -> Result<MaterialEntry, String> {
     let reflectance = Colour::constant(Spectrum::grey(reflectance))?;
-    Ok(MaterialEntry::Diffuse(diffuse::Keys { reflectance, ..Default::default() }))
+    Ok(MaterialEntry::from(diffuse::Keys { reflectance, ..Default::default() }))
 }

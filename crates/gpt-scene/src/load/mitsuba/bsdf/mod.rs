@@ -49,7 +49,7 @@ impl Converter<'_> {
             // An emitting null surface lets all light through, and adds its own.
             let black = self.extra(shape, "black", black());
             let through = shape.possible(BlendWeightEntry::constant(1.0))?;
-            entry = MaterialEntry::Blend(blend::Keys::of([plain.clone(), black], through, &place));
+            entry = MaterialEntry::from(blend::Keys::of([plain.clone(), black], through, &place));
         }
         let common = entry.common_mut();
         *common.name = place.at(String::new());
@@ -76,7 +76,7 @@ impl Converter<'_> {
         let name = place.at(self.scene.free_material_name(name));
         let (reflectance, two_sided) = (Colour::constant(Spectrum::grey(reflectance))?, Some(place.at(false)));
         let keys = diffuse_entry::Keys { name, reflectance, two_sided, ..Default::default() };
-        self.scene.file.material.push(MaterialEntry::Diffuse(keys));
+        self.scene.file.material.push(MaterialEntry::from(keys));
         let made = self.scene.file.material.len() - 1;
         self.default_materials[usize::from(is_emitter)] = Some(made);
         Ok(made)

@@ -32,7 +32,7 @@ pub fn phong(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, Sc
         exponent: plugin.possible(exponent.scalar(&place))?,
         ..Default::default()
     };
-    Ok((MaterialEntry::Phong(keys), false))
+    Ok((MaterialEntry::from(keys), false))
 }
 
 /// A dielectric layer over another BSDF.
@@ -46,10 +46,10 @@ pub fn coating(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
     converter.approximate(plugin, &what, "a mirror over what is below, blended by Fresnel's equations");
     let place = plugin.at();
     let reflectance = Some(plugin.possible(specular.colour(&place))?);
-    let mirror = MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() });
+    let mirror = MaterialEntry::from(mirror::Keys { reflectance, ..Default::default() });
     let coat = converter.extra(plugin, "coat", mirror);
     let ior = Some(plugin.possible(Checked::of(ior))?);
     let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
-    let blend = MaterialEntry::Blend(blend::Keys::of([base, coat], weight, &place));
+    let blend = MaterialEntry::from(blend::Keys::of([base, coat], weight, &place));
     Ok((with_relief(blend, parts.relief), false))
 }

@@ -33,5 +33,5 @@ pub fn plastic(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, 
         keys.distribution = distribution(converter, plugin)?.then(|| place.at(DistributionEntry::Beckmann));
         keys.masking = Some(place.at(MaskingEntry::Separable));
     }
-    Ok((MaterialEntry::Plastic(keys), false))
+    Ok((MaterialEntry::from(keys), false))
 }

@@ -68,7 +68,7 @@ pub fn principled(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
         keys.anisotropy = Some(Box::new(share(&Input::grey(anisotropic))?));
     }
     // A thin one scatters on both sides.
-    Ok((MaterialEntry::Principled(keys), see_through || plugin.name == "principledthin"))
+    Ok((MaterialEntry::from(keys), see_through || plugin.name == "principledthin"))
 }
 
 fn is(input: &Input, value: f64) -> bool {

@@ -35,7 +35,7 @@ fn sides(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result
     let sides = <[String; 2]>::try_from(names);
     let sides = sides.map_err(|_| plugin.error(format!("a surface has two sides, and this one {count} bsdfs for them")))?;
     let front = BlendWeightEntry::Front(NoKeys {});
-    Ok(with_relief(MaterialEntry::Blend(blend_entry::Keys::of(sides, front, &plugin.at())), relief))
+    Ok(with_relief(MaterialEntry::from(blend_entry::Keys::of(sides, front, &plugin.at())), relief))
 }
 
 pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -116,7 +116,7 @@ pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) 
 
 fn blended(materials: [String; 2], share: &Input, plugin: &Plugin) -> Result<MaterialEntry, SceneError> {
     let weight = plugin.possible(weight(share, &plugin.at()))?;
-    Ok(MaterialEntry::Blend(blend_entry::Keys::of(materials, weight, &plugin.at())))
+    Ok(MaterialEntry::from(blend_entry::Keys::of(materials, weight, &plugin.at())))
 }
 
 /// Mitsuba's weight is the second one's share.

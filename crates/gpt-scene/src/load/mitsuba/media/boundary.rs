@@ -105,15 +105,15 @@ impl Converter<'_> {
             self.scene.file.material.push(entry);
             name
         };
-        let mirror = add("mirror of a thin wall", MaterialEntry::Mirror(mirror::Keys { reflectance, ..Default::default() }));
-        let nothing = add("behind a thin wall", MaterialEntry::Pass(pass::Keys::default()));
+        let mirror = add("mirror of a thin wall", MaterialEntry::from(mirror::Keys { reflectance, ..Default::default() }));
+        let nothing = add("behind a thin wall", MaterialEntry::from(pass::Keys::default()));
         // A blend of what is where light passes the face, and where the face reflects it.
         let by_face = |passed: String, reflected: String| {
             let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
-            MaterialEntry::Blend(blend::Keys::of([passed, reflected], weight, &place))
+            MaterialEntry::from(blend::Keys::of([passed, reflected], weight, &place))
         };
         let half = BlendWeightEntry::constant(0.5).map_err(|message| shape.error(message))?;
-        let half = MaterialEntry::Blend(blend::Keys::of([mirror.clone(), nothing.clone()], half, &place));
+        let half = MaterialEntry::from(blend::Keys::of([mirror.clone(), nothing.clone()], half, &place));
         let mut between = add("between the faces of a thin wall", half);
         // The last step has the share x of the mirror: each one before has it of what the step after leaves.
         for step in 0..BETWEEN_FACES {

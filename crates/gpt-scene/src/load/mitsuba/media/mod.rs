@@ -108,7 +108,7 @@ impl Converter<'_> {
             return of_coefficients(plugin, absorption, scattering);
         }
         let extinction = self.volume_mean(plugin, "sigma_t", 1.0)? * scale;
-        let everywhere = plugin.at().at(VolumeEntry { outside: Some(OutsideName::Border), ..one_voxel(plugin)? });
+        let everywhere = Box::new(plugin.at().at(VolumeEntry { outside: Some(OutsideName::Border), ..one_voxel(plugin)? }));
         self.with_albedo(plugin, extinction, None, everywhere)
     }
 
@@ -130,7 +130,7 @@ impl Converter<'_> {
                 (tint, density)
             }
         };
-        let density = plugin.at().at(density);
+        let density = Box::new(plugin.at().at(density));
         self.with_albedo(plugin, extinction, Some(density.clone()), density)
     }
 
@@ -140,8 +140,8 @@ impl Converter<'_> {
         &mut self,
         plugin: &Rc<Plugin>,
         extinction: Spectrum,
-        density: Option<Located<VolumeEntry>>,
-        otherwise: Located<VolumeEntry>,
+        density: Option<Box<Located<VolumeEntry>>>,
+        otherwise: Box<Located<VolumeEntry>>,
     ) -> Result<MediumEntry, SceneError> {
         match self.volume_parameter(plugin, "albedo", 0.75)? {
             Parameter::Constant { value: albedo, .. } => {
@@ -157,7 +157,7 @@ impl Converter<'_> {
                 let free = extinction.map(|lost| if lost > 1.0 / LARGEST { 1.0 / lost } else { LARGEST });
                 Ok(MediumEntry {
                     density: Some(density.unwrap_or(otherwise)),
-                    albedo_grid: Some(grid.place().at(albedo)),
+                    albedo_grid: Some(Box::new(grid.place().at(albedo))),
                     mean_free_path: Some(place.at(plugin.possible(Rgb::of(free))?)),
                     ..MediumEntry::default()
                 })
