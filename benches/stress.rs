@@ -19,6 +19,8 @@ mod checked_shaders;
 mod grazing;
 #[path = "../tests/stress/intersections.rs"]
 mod intersections;
+#[path = "../tests/stress/media.rs"]
+mod media;
 #[path = "../tests/stress/not_finite.rs"]
 mod not_finite;
 #[path = "../tests/stress/random_scenes.rs"]
@@ -37,12 +39,13 @@ use support::{Effort, Finding};
 type Findings = fn(Effort) -> Vec<Finding>;
 
 /// By the names of their tables on the page.
-const SECTIONS: [(&str, Findings); 9] = [
+const SECTIONS: [(&str, Findings); 10] = [
     ("scale", scale::findings),
     ("intersections", intersections::findings),
     ("self-intersection", self_intersection::findings),
     ("range", range::findings),
     ("grazing", grazing::findings),
+    ("media", media::findings),
     ("accumulation", accumulation::findings),
     ("not-finite", not_finite::findings),
     ("checked-shaders", checked_shaders::findings),

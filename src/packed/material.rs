@@ -38,6 +38,7 @@ shared_constants!(flags {
     const COMPENSATED: u32 = material::COMPENSATED << FORM_SHIFT;
     const DIFFUSE_TRANSMITS: u32 = material::DIFFUSE_TRANSMITS << FORM_SHIFT;
     const UNTINTED: u32 = material::UNTINTED << FORM_SHIFT;
+    const DISPERSED: u32 = material::DISPERSED << FORM_SHIFT;
     const THIN_FILM: u32 = material::THIN_FILM << FORM_SHIFT;
     /// Reflections within a thin film that are added up, and the smallest part of light that counts.
     const MOST_FILM_ORDERS: u32 = material::thin_film::MOST_ORDERS;

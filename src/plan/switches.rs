@@ -302,7 +302,10 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     );
     let has_form = |form: u32| materials.iter().any(|material| material.has_form(form));
     switches.enable("THIN_FILM", has_form(material::THIN_FILM));
-    switches.enable("CARRIED_LIGHT", [LobeKind::SpectralGlass, LobeKind::RoughSpectralGlass].into_iter().any(has));
+    let is_dispersed = has_form(material::DISPERSED);
+    switches.enable("PRINCIPLED_DISPERSION", is_dispersed);
+    switches
+        .enable("CARRIED_LIGHT", is_dispersed || [LobeKind::SpectralGlass, LobeKind::RoughSpectralGlass].into_iter().any(has));
     switches.enable("COMPENSATION", has_form(material::COMPENSATED));
     switches.enable("SHEEN", has_form(material::SHEEN));
     let media = &packed.materials.media;

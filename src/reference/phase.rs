@@ -33,10 +33,11 @@ impl Scattering<'_> {
             left < 0.0
         });
         let kind = chosen.or(self.phase.0.last())?.kind;
-        let away = one_minus_cosine(kind, u1);
-        let sine = (away * (2.0 - away)).max(0.0).sqrt();
+        let (off_peak, is_ahead) = off_peak(kind, u1);
+        let sine = (off_peak * (2.0 - off_peak)).max(0.0).sqrt();
+        let along = if is_ahead { 1.0 - off_peak } else { off_peak - 1.0 };
         let (sine_around, cosine_around) = (TAU * u2).sin_cos();
-        let local = DVec3::new(sine * cosine_around, sine * sine_around, 1.0 - away);
+        let local = DVec3::new(sine * cosine_around, sine * sine_around, along);
         let wi = Frame::around(-self.wo).to_world(local);
         let Evaluation { value, pdf } = self.evaluate(wi);
         (pdf > 0.0).then_some(BsdfSample { wi, weight: value / pdf, density: Density::SolidAngle(pdf), eta: 1.0, is_null: false })
@@ -59,20 +60,22 @@ fn pdf_solid_angle(kind: PhaseKind, wo: DVec3, wi: DVec3) -> f64 {
     }
 }
 
-/// 1 less the cosine between the directions before and after, at a share of the lobe.
-fn one_minus_cosine(kind: PhaseKind, u: f64) -> f64 {
+/// 1 less the cosine of the angle with the lobe's peak, at a share of the lobe, and true where the peak lies ahead and not behind.
+fn off_peak(kind: PhaseKind, u: f64) -> (f64, bool) {
     match kind {
-        // The inversion of Henyey and Greenstein's lobe, written so that nothing cancels near either peak.
+        // The inversion of Henyey and Greenstein's lobe, by the share from the peak on, so that nothing cancels near it.
         PhaseKind::HenyeyGreenstein { g } => {
-            let within = 1.0 - g + 2.0 * g * u;
-            let ratio = (1.0 + g) * (1.0 - g) / within;
-            ((1.0 - g) * (1.0 - u) * (ratio + 1.0 - g) / within).clamp(0.0, 2.0)
+            let from_peak = if g >= 0.0 { 1.0 - u } else { u };
+            let (narrow, wide) = (1.0 - g.abs(), 1.0 + g.abs());
+            let within = wide - 2.0 * g.abs() * from_peak;
+            let off_peak = narrow * from_peak * (wide * narrow / within + narrow) / within;
+            (off_peak.clamp(0.0, 2.0), g >= 0.0)
         }
         // The root of cos³ + 3·cos = 8u − 4
         PhaseKind::Rayleigh => {
             let half = 4.0 * u - 2.0;
             let cube = (half.abs() + (half * half + 1.0).sqrt()).cbrt();
-            (1.0 - (cube - 1.0 / cube) * half.signum()).clamp(0.0, 2.0)
+            ((1.0 - (cube - 1.0 / cube) * half.signum()).clamp(0.0, 2.0), true)
         }
     }
 }
@@ -83,7 +86,7 @@ mod tests {
     use crate::scene::PhaseLobe;
 
     fn phases() -> Vec<Phase> {
-        let kinds = [0.0, 0.6, -0.6, 0.99].map(|g| PhaseKind::HenyeyGreenstein { g });
+        let kinds = [0.0, 0.6, -0.6, 0.99, -0.99].map(|g| PhaseKind::HenyeyGreenstein { g });
         let mut phases: Vec<Phase> = kinds.into_iter().chain([PhaseKind::Rayleigh]).map(Phase::of).collect();
         phases.push(Phase(vec![
             PhaseLobe { weight: 0.3, kind: kinds[1] },

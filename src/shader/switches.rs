@@ -168,7 +168,7 @@ const OF_FEATURES: &[Switch] = &[
     // The camera moves while the shutter is open.
     switch("CAMERA_MOTION"),
     // Surfaces know what the path carries to them.
-    switch("CARRIED_LIGHT").one_of(&["ROUGH_SPECTRAL_GLASS", "SPECTRAL_GLASS"]),
+    switch("CARRIED_LIGHT").one_of(&["PRINCIPLED_DISPERSION", "ROUGH_SPECTRAL_GLASS", "SPECTRAL_GLASS"]),
     switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
     // Coats lie about other normals than what is below them.
     switch("COAT_NORMALS").requires(&["FURTHER_PARAMETERS", "PRINCIPLED", "TANGENTS", "TEXTURES"]),
@@ -258,6 +258,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("PORTALS").requires(&["ENVIRONMENT_SAMPLED"]),
     switch("PRIMITIVE_CHUNKS").excludes(&["UNIFORM_PRIMITIVES"]),
     switch("PRINCIPLED_DIFFUSE_TRANSMISSION").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
+    switch("PRINCIPLED_DISPERSION").requires(&["CARRIED_LIGHT", "FURTHER_PARAMETERS", "PRINCIPLED", "PRINCIPLED_TRANSMISSION"]),
     switch("PRINCIPLED_TRANSMISSION"),
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
     // Acceleration structures hold a scene at rest.

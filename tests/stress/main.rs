@@ -14,6 +14,7 @@ mod checked_shaders;
 mod controls;
 mod grazing;
 mod intersections;
+mod media;
 mod not_finite;
 mod random_scenes;
 mod range;
@@ -62,6 +63,11 @@ fn rays_leave_the_surface_they_start_on() {
 #[test]
 fn rays_meet_what_is_hard_to_meet() {
     assert_all(&intersections::findings(effort()));
+}
+
+#[test]
+fn media_of_any_density_look_the_same() {
+    assert_all(&media::findings(effort()));
 }
 
 #[test]

@@ -41,16 +41,18 @@ fn evaluate_phase(phase: u32, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
     return BsdfValue(Spectrum(pdf), pdf);
 }
 
-// 1 less the cosine between the directions before and after, at a share of the lobe.
-fn one_minus_cosine(lobe: PhaseLobe, u: f32) -> f32 {
+// 1 less the cosine of the angle with the lobe's peak, at a share of the lobe.
+fn off_peak(lobe: PhaseLobe, u: f32) -> f32 {
     if lobe.kind == PHASE_RAYLEIGH {
         let half = 4.0 * u - 2.0;
         let cube = cube_root(abs(half) + sqrt(half * half + 1.0));
         return clamp(1.0 - (cube - 1.0 / cube) * sign(half), 0.0, 2.0);
     }
-    let within = 1.0 - lobe.g + 2.0 * lobe.g * u;
-    let ratio = (1.0 + lobe.g) * (1.0 - lobe.g) / within;
-    return clamp((1.0 - lobe.g) * (1.0 - u) * (ratio + 1.0 - lobe.g) / within, 0.0, 2.0);
+    let from_peak = select(u, 1.0 - u, lobe.g >= 0.0);
+    let narrow = 1.0 - abs(lobe.g);
+    let wide = 1.0 + abs(lobe.g);
+    let within = wide - 2.0 * abs(lobe.g) * from_peak;
+    return clamp(narrow * from_peak * (wide * narrow / within + narrow) / within, 0.0, 2.0);
 }
 
 // Draws a direction: `choice` chooses one of the lobes, `u` the angle with the way before, `v` the way around it.
@@ -66,9 +68,10 @@ fn sample_phase(phase: u32, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfS
         index++;
         lobe = phase_lobe(phase, index);
     }
-    let away = one_minus_cosine(lobe, u);
-    let sine = sqrt(max(0.0, away * (2.0 - away)));
+    let off = off_peak(lobe, u);
+    let sine = sqrt(max(0.0, off * (2.0 - off)));
+    let along = select(off - 1.0, 1.0 - off, lobe.kind == PHASE_RAYLEIGH || lobe.g >= 0.0);
     let around = sin_cos_turns(v);
-    let wi = frame_to_world(frame_from_normal(-wo), vec3<f32>(sine * around.y, sine * around.x, 1.0 - away));
+    let wi = frame_to_world(frame_from_normal(-wo), vec3<f32>(sine * around.y, sine * around.x, along));
     return from_value(wi, evaluate_phase(phase, wo, wi), 1.0);
 }

@@ -3,6 +3,7 @@
 #import shading/microfacet/dielectric.wgsl
 #import shading/microfacet/fresnel.wgsl
 #import shading/microfacet/thin_film.wgsl
+#import shading/material/channels.wgsl
 #import shading/material/lobe.wgsl
 #import shading/material/scattering.wgsl
 #import shading/surface.wgsl
@@ -20,17 +21,6 @@ struct SpectralWays {
     reflection: f32,
     // The share that each channel refracts; all 0 where nothing is scattered.
     transmission: Spectrum,
-}
-
-// Each channel's share of what the path carries.
-fn carried_shares(surface: Surface) -> Spectrum {
-#if CARRIED_LIGHT
-    let sum = dot(surface.carried, WHITE);
-    if sum > 0.0 {
-        return surface.carried / sum;
-    }
-#endif
-    return Spectrum(1.0 / 3.0);
 }
 
 fn spectral_etas(dielectric: SpectralDielectric, surface: Surface) -> Spectrum {

@@ -23,6 +23,7 @@ mod phong;
 mod phong_glass;
 mod plastic;
 mod principled;
+mod principled_layers;
 mod rough_glass;
 mod rough_plastic;
 mod rough_spectral_glass;

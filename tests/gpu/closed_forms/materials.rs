@@ -179,6 +179,7 @@ fn plain_principled(base: Spectrum, metallic: f64, roughness: f64, transmission:
         metallic: grey(metallic),
         roughness: grey(roughness),
         ior: 1.5,
+        dispersion: None,
         specular: one,
         specular_color: one,
         transmission: grey(transmission),

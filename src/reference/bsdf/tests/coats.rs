@@ -1,27 +1,16 @@
 //! Coats that lie about other normals than what is below them.
 
+use super::super::principled::Principled;
+use super::super::principled_layers::PrincipledLayers;
 use super::*;
 use crate::compare::sidak;
 use crate::reference::intersect::{NormalTexel, Tangents, UvSet};
 use crate::statistics::{SphereBins, test_directional_sampler};
 
-fn principled(keys: &str) -> Lobe {
-    let text = format!(
-        "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n\
-         [[material]]\nname = \"m\"\ntype = \"principled\"\n{keys}"
-    );
-    let scene = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
-    Lobe::of(
-        &scene.materials[0].kind,
-        &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false },
-    )
-    .expect("it scatters")
-}
-
 /// The lobe with a map of the coat's own that has this texel here.
 fn mapped(lobe: Lobe, texel: Option<NormalTexel>) -> Lobe {
     let Lobe::Principled(principled) = lobe else { panic!("it is no principled lobe") };
-    Lobe::Principled(super::super::principled::Principled { coat_texel: texel, ..principled })
+    Lobe::Principled(Principled { layers: PrincipledLayers { coat_texel: texel, ..principled.layers }, ..principled })
 }
 
 /// A surface whose base is bent by some degrees, and whose coat is nearly not.
@@ -92,7 +81,7 @@ fn coats_make_no_energy() {
             samples.map(|s| (s.weight * s.eta * s.eta).max_component()).sum::<f64>() / f64::from(count)
         };
         let Lobe::Principled(coated) = principled(MATERIALS[index / per_material]) else { panic!("{name}") };
-        let base = Lobe::Principled(super::super::principled::Principled { coat: 0.0, ..coated });
+        let base = Lobe::Principled(Principled { layers: PrincipledLayers { coat: 0.0, ..coated.layers }, ..coated });
         let (mean, of_base) = (reflected(bsdf), reflected(&single(base, bsdf.view)));
         assert!(mean <= of_base.max(1.0) + 3e-3, "{name}: {mean}, of the base alone {of_base}");
         assert!(mean > 0.01, "{name}: {mean}");

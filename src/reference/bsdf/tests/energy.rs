@@ -108,7 +108,7 @@ fn scattering_is_reciprocal() {
     // Nor has the coat of the principled material, which shades what lies below by wo's angle alone.
     let is_reciprocal = |lobe: &Lobe| match lobe {
         // Nor has what is made good by wo's angle alone.
-        Lobe::Principled(principled) => principled.coat == 0.0 && !principled.compensates,
+        Lobe::Principled(principled) => principled.layers.coat == 0.0 && !principled.layers.compensates,
         _ => lobe.kind() != LobeKind::PhongGlass,
     };
     for (name, lobe, ior) in non_delta_lobes().into_iter().filter(|(_, lobe, _)| is_reciprocal(lobe)) {
@@ -121,6 +121,7 @@ fn scattering_is_reciprocal() {
             let through = wo.z * wi.z < 0.0;
             let iors = match lobe {
                 Lobe::RoughSpectralGlass(glass) => glass.dielectric.iors,
+                Lobe::Principled(principled) => principled.iors.unwrap_or(Spectrum::grey(ior)),
                 _ => Spectrum::grey(ior),
             };
             let index = |w: DVec3| if w.z > 0.0 { Spectrum::WHITE } else { iors };
@@ -132,7 +133,7 @@ fn scattering_is_reciprocal() {
         }
         assert!(reflected > 500, "{name}: {reflected}");
         let transmits = match lobe {
-            Lobe::Principled(principled) => principled.transmission > 0.0 || principled.diffuse_transmission > 0.0,
+            Lobe::Principled(principled) => principled.layers.transmission > 0.0 || principled.layers.diffuse_transmission > 0.0,
             _ => lobe.kind().support() == LobeSupport::Sphere,
         };
         assert_eq!(transmitted > 100, transmits, "{name}: {transmitted}");
@@ -165,17 +166,6 @@ fn energy_lost_between_microfacets_is_as_documented() {
     }
     let closed = albedo(&single(white_metal(1.0), view(0.0, 0.0)), 10)[0];
     assert!(one_sample_t_test_beyond(&closed, 1.0 - std::f64::consts::LN_2, 1e-5).p_value > 0.001, "{closed:?}");
-}
-
-/// The principled material of one example after these keys.
-fn principled(keys: &str) -> Lobe {
-    let text = format!(
-        "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n\
-         [[material]]\nname = \"m\"\ntype = \"principled\"\n{keys}"
-    );
-    let scene = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
-    let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false };
-    Lobe::of(&scene.materials[0].kind, &lookup).expect("it scatters")
 }
 
 /// White metal of any roughness and masking, under a uniform light: with compensation nothing is missing.
@@ -214,7 +204,7 @@ fn sheen_takes_what_it_reflects() {
             // Black metal reflects Schlick's share at grazing angles, as far as the fibres leave it.
             let Lobe::Principled(parts) = fibres else { panic!("it is principled") };
             let view = view(degrees, 0.0);
-            let taken = parts.sheen.taken(view.wo.z);
+            let taken = parts.layers.sheen.taken(view.wo.z);
             let expected = taken + (1.0 - taken) * (1.0 - view.wo.z).powi(5);
             let measured = albedo(&single(fibres, view), 72)[0];
             let off = (measured.mean() - expected).abs() - 5.0 * measured.standard_error();

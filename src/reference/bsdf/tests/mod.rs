@@ -57,6 +57,17 @@ fn view(wo_degrees: f64, tilt_degrees: f64) -> View {
     View::new(at_degrees(wo_degrees, 0.4), DVec3::Z, at_degrees(tilt_degrees, 2.0))
 }
 
+/// The principled material of these keys.
+fn principled(keys: &str) -> Lobe {
+    let text = format!(
+        "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n\
+         [[material]]\nname = \"m\"\ntype = \"principled\"\n{keys}"
+    );
+    let scene = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
+    let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false };
+    Lobe::of(&scene.materials[0].kind, &lookup).expect("it scatters")
+}
+
 fn single(lobe: Lobe, view: View) -> Bsdf {
     Bsdf::mixture(view, [(lobe, 1.0)])
 }

@@ -1,5 +1,7 @@
 //! Glass whose channels are not bent alike.
 
+use super::super::principled::Principled;
+use super::super::principled_layers::PrincipledLayers;
 use super::super::spectral_dielectric::SpectralDielectric;
 use super::super::spectral_glass::SpectralGlass;
 use super::*;
@@ -62,6 +64,38 @@ fn each_channel_is_plain_glass_of_its_index() {
                 {
                     assert_eq!(at(other), 0.0);
                 }
+            }
+        }
+    }
+}
+
+/// Each channel of the principled material goes by its own index what the layers of that index send there, whatever the path carries of it.
+#[test]
+fn each_channel_is_layers_of_its_index() {
+    let iors = FLINT.channels(1.0);
+    let keys = "base_color = [0.9, 0.5, 0.7]\nmetallic = 0\nroughness = 0\ntransmission = 1\nclearcoat = 0.5";
+    let Lobe::Principled(plain) = principled(keys) else { panic!("it is principled") };
+    let of = |iors: Option<Spectrum>, ior: f64| {
+        Lobe::Principled(Principled { layers: PrincipledLayers { ior, ..plain.layers }, iors })
+    };
+    for degrees in [0.0, 40.0, 75.0, 110.0, 139.0, 142.0, 170.0] {
+        for carried in [Spectrum::WHITE, Spectrum::new(1.0, 0.05, 0.3)] {
+            let view = view(degrees, 0.0);
+            let found = by_direction(&single(of(Some(iors), 1.5), view), carried);
+            for (channel, ior) in iors.to_rgb().into_iter().enumerate() {
+                let light = |found: &[(DVec3, Spectrum)], wi: DVec3| {
+                    let weights = found.iter().filter(|(other, _)| (*other - wi).length() < 1e-12);
+                    weights.map(|(_, weight)| weight.to_rgb()[channel]).sum::<f64>()
+                };
+                let expected = by_direction(&single(of(None, ior), view), Spectrum::WHITE);
+                for (wi, _) in &expected {
+                    let (found, expected) = (light(&found, *wi), light(&expected, *wi));
+                    let off = (found - expected).abs();
+                    assert!(off < 1e-4 * (1.0 + expected), "{degrees}, {channel}: {found} {expected}");
+                }
+                // Nothing comes from elsewhere.
+                let sum = |found: &[(DVec3, Spectrum)]| found.iter().map(|(_, weight)| weight.to_rgb()[channel]).sum::<f64>();
+                assert!((sum(&found) - sum(&expected)).abs() < 3e-4, "{degrees}, {channel}");
             }
         }
     }

@@ -66,6 +66,41 @@ fn volumes_scatter() {
 }
 
 /// A coat has the normals of its own texture, and without one those of the surface, whatever bends the normals below it.
+/// KHR_materials_dispersion: 20 over Abbe's number, where light goes into a volume.
+#[test]
+fn dispersion_is_read() {
+    let read = |dispersion: f64, thickness: f64| {
+        let mut file = File::new();
+        file.root["materials"][0]["extensions"] = json!({
+            "KHR_materials_transmission": { "transmissionFactor": 1.0 },
+            "KHR_materials_dispersion": { "dispersion": dispersion },
+            "KHR_materials_volume": { "thicknessFactor": thickness },
+        });
+        file.root["extensionsUsed"] =
+            json!(["KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_dispersion", "KHR_materials_volume"]);
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let scene = folder.valid("a.gltf");
+        assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+        let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+        (principled.iors().map(Spectrum::to_rgb), report(&scene))
+    };
+    let (iors, told) = read(2.0, 1.0);
+    let [red, green, blue] = iors.expect("they differ");
+    // Abbe's number is 10: F and C are 0.05 apart about 1.5, and the channels lie at 611, 549 and 464 nm.
+    let cauchy = |wavelength: f64| {
+        let [c, d, f] = [0.6563_f64, 0.5876, 0.4861].map(|line| line.powi(-2));
+        1.5 + 0.05 * (wavelength.powi(-2) - d) / (f - c)
+    };
+    for (found, wavelength) in [(red, 0.6114), (green, 0.5491), (blue, 0.4642)] {
+        assert!((found - cauchy(wavelength)).abs() < 2e-4, "{iors:?} at {wavelength}");
+    }
+    assert_eq!(told, "");
+    // Nothing is bent where there is no volume or no dispersion.
+    assert_eq!([read(2.0, 0.0), read(0.0, 1.0)], [(None, String::new()), (None, String::new())]);
+    let (iors, told) = read(1e6, 1.0);
+    assert!(iors.is_some() && told.contains("KHR_materials_dispersion"), "{told}");
+}
+
 #[test]
 fn coats_have_normal_maps_of_their_own() {
     let coated = |normal: Option<Value>| {

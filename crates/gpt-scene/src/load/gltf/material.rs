@@ -14,10 +14,10 @@ use crate::load::file::colour::{ChannelName, Rgb, Scalar};
 use crate::load::file::material::blend_weight::BlendWeightEntry;
 use crate::load::file::material::{MaterialEntry, diffuse, emissive, principled};
 use crate::load::file::reference::TextureName;
-use crate::load::file::value::{Checked, Fraction, Located, Number, Rule};
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, LARGEST, Located, Number, Rule};
 use crate::load::import::Input;
 use crate::load::place::Place;
-use crate::scene::Channel;
+use crate::scene::{Channel, Dispersion};
 use crate::spectrum::Spectrum;
 
 /// Index of refraction where nothing is said, and the largest that scene files have.
@@ -276,7 +276,7 @@ impl Surface<'_, '_> {
             base_color: Some(base.colour(&place)?),
             metallic: Some(metallic.scalar(&place)?),
             roughness: Some(roughness.scalar(&place)?),
-            ior: Some(Checked::of(ior)?),
+            ior: Some(place.at(Checked::of(ior)?)),
             ..Default::default()
         };
         if !specular.is(1.0) {
@@ -298,6 +298,7 @@ impl Surface<'_, '_> {
             keys.diffuse_transmission_color = Some(place.at(tint.colour(&place)?));
         }
         if self.has_volume() {
+            self.dispersion(&mut keys, ior)?;
             self.attenuation(&mut keys)?;
             self.scattering(&mut keys)?;
         } else {
@@ -332,6 +333,32 @@ impl Surface<'_, '_> {
         }
         self.iridescence(&mut keys)?;
         Ok(MaterialEntry::from(keys))
+    }
+
+    /// An index of refraction for each channel (KHR_materials_dispersion), where light goes into a volume.
+    fn dispersion(&mut self, keys: &mut principled::Keys, ior: f64) -> Result<(), String> {
+        const DISPERSION: &str = "KHR_materials_dispersion";
+        let dispersion = self.number(DISPERSION, "dispersion", 0.0);
+        if dispersion <= 0.0 || keys.transmission.is_none() {
+            return Ok(());
+        }
+        let written = (20.0 / dispersion).min(LARGEST);
+        let possible = |abbe: &f64| Dispersion::Abbe(*abbe).channels(ior).to_rgb().into_iter().all(IndexOfRefraction::accepts);
+        // The indices of channels lie nearer to each other with each step.
+        let mut steps = (0..128).map(|step| written * 2.0_f64.powi(step));
+        let Some(abbe) = steps.find(possible) else {
+            self.drop(
+                DISPERSION,
+                "all colours are bent alike, since the index of refraction is the least or largest that is possible",
+            );
+            return Ok(());
+        };
+        if abbe != written {
+            let instead = format!("{} is taken, with which every channel has a possible index of refraction", 20.0 / abbe);
+            self.approximate(&format!("{DISPERSION}/dispersion of {dispersion}"), &instead);
+        }
+        keys.abbe_number = Some(self.place().at(Checked::of(abbe)?));
+        Ok(())
     }
 
     /// A thin film (KHR_materials_iridescence).
@@ -468,12 +495,6 @@ impl Surface<'_, '_> {
 
     /// Names what of known extensions has no effect.
     fn report_extensions(&mut self) {
-        const PARTS: [(&str, &str, &str); 1] = [("KHR_materials_dispersion", "dispersion", "all colours are bent alike")];
-        for (name, key, instead) in PARTS {
-            if self.number(name, key, 0.0) != 0.0 {
-                self.drop(name, instead);
-            }
-        }
         if self.material.occlusion_texture.is_some() {
             self.drop("occlusionTexture", "light is traced, so what is hidden is dark by itself");
         }

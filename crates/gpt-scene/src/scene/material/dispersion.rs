@@ -52,6 +52,11 @@ impl Dispersion {
     }
 }
 
+/// The indices of refraction of the channels.
+pub fn iors(ior: f64, dispersion: Option<Dispersion>) -> Spectrum {
+    dispersion.map_or(Spectrum::grey(ior), |dispersion| dispersion.channels(ior))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! The types of materials, and the lobes that they scatter by.
 
 use super::blend_weight::BlendWeight;
-use super::dispersion::Dispersion;
+use super::dispersion::{Dispersion, iors};
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
 use super::parameters::{self, ParameterType, place};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
@@ -120,6 +120,8 @@ pub const DIFFUSE_TRANSMITS: u32 = 8192;
 pub const THIN_FILM: u32 = 16384;
 /// Light that the base lets in keeps its colour: the medium below gives it one.
 pub const UNTINTED: u32 = 32768;
+/// Channels have indices of refraction of their own.
+pub const DISPERSED: u32 = 65536;
 /// All of these.
 pub const FORMS: u32 = COMPLEX_FRESNEL
     | BECKMANN
@@ -135,7 +137,8 @@ pub const FORMS: u32 = COMPLEX_FRESNEL
     | DIRECTED
     | DIFFUSE_TRANSMITS
     | THIN_FILM
-    | UNTINTED;
+    | UNTINTED
+    | DISPERSED;
 
 /// Entries that the transmittance of rough plastic takes.
 const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
@@ -282,11 +285,6 @@ fn spectral_glass(ior: f64, dispersion: Option<Dispersion>, film: Option<ThinFil
     }
 }
 
-/// The indices of refraction of the channels.
-pub fn iors(ior: f64, dispersion: Option<Dispersion>) -> Spectrum {
-    dispersion.map_or(Spectrum::grey(ior), |dispersion| dispersion.channels(ior))
-}
-
 /// The thickness of a film, and its index of refraction with what is added to the thickness.
 fn further_of_film(film: Option<ThinFilm>) -> [ColorInput; 2] {
     let film = film.unwrap_or(ThinFilm { thickness: ColorInput::grey(0.0), offset: 0.0, ior: 1.0 });
@@ -306,6 +304,7 @@ pub const COAT_TEXEL_PARAMETER: usize = place!(Principled.coat_texel);
 /// The number of further parameters of the principled lobe in a form.
 fn further_of_principled(form: u32) -> usize {
     let last = match form {
+        form if form & DISPERSED != 0 => place!(Principled.iors),
         form if form & THIN_FILM != 0 => place!(Principled.thin_film),
         form if form & DIFFUSE_TRANSMITS != 0 => place!(Principled.diffuse_transmission_color),
         form if form & DIRECTED != 0 => place!(Principled.direction_texel),
@@ -331,6 +330,7 @@ impl Principled {
             | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 }
             | if direction.is_some() { DIRECTED } else { 0 }
             | if self.diffuse_transmission == zero { 0 } else { DIFFUSE_TRANSMITS }
+            | if self.iors().is_some() { DISPERSED } else { 0 }
             | form_of_film(self.thin_film);
         let [thin_film_thickness, thin_film] = further_of_film(self.thin_film);
         let mut further = parameters::Principled {
@@ -351,6 +351,7 @@ impl Principled {
             thin_film_share: self.thin_film_share,
             thin_film_thickness,
             thin_film,
+            iors: ColorInput::Constant(self.iors().unwrap_or(Spectrum::grey(self.ior))),
         }
         .list();
         further.truncate(further_of_principled(form));

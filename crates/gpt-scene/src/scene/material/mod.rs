@@ -15,11 +15,11 @@ pub use albedo::{
     ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, FACET_KNEE, SHEEN_KNEE, SMALLEST_SHEEN_ROUGHNESS, sheen_distribution, sheen_lambda,
 };
 pub use blend_weight::BlendWeight;
-pub use dispersion::Dispersion;
+pub use dispersion::{Dispersion, iors};
 pub use kind::{
     ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
-    DIFFUSE_TRANSMITS, DIRECTED, FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND,
-    SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS, UNTINTED, iors,
+    DIFFUSE_TRANSMITS, DIRECTED, DISPERSED, FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN,
+    SMALLEST_BEND, SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS, UNTINTED,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use parameters::{Parameter, ParameterType};

@@ -2,6 +2,7 @@
 
 use crate::spectrum::Spectrum;
 
+use super::dispersion::{Dispersion, iors};
 use super::microfacets::Masking;
 use super::thin_film::ThinFilm;
 use crate::scene::medium::{Medium, Phase, PhaseKind};
@@ -26,6 +27,8 @@ pub struct Principled {
     pub roughness: ColorInput,
     /// The index of refraction of the dielectric, inside over outside.
     pub ior: f64,
+    /// The way in which it depends on the wavelength where light goes through; None: all channels are bent alike.
+    pub dispersion: Option<Dispersion>,
     /// Factor of what the dielectric reflects, and its colour along the normal.
     pub specular: ColorInput,
     pub specular_color: ColorInput,
@@ -97,6 +100,12 @@ impl Principled {
     /// Share of the dielectric's base that lets light through or in.
     pub fn let_through(&self) -> ColorInput {
         self.subsurface.map_or(self.transmission, |subsurface| subsurface.weight)
+    }
+
+    /// The indices of refraction of the channels, where they are not alike.
+    pub fn iors(&self) -> Option<Spectrum> {
+        let lets_through = self.let_through() != ColorInput::grey(0.0);
+        self.dispersion.filter(|_| lets_through && !self.thin).map(|dispersion| iors(self.ior, Some(dispersion)))
     }
 
     /// Some of it may be coated.

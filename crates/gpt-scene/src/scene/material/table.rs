@@ -58,7 +58,8 @@ macro_rules! material_table {
                     direction_texel: Vector = "vec3<f32>(0.0)",
                     diffuse_transmission: Scalar = "0.0", diffuse_transmission_color: Color = "BLACK",
                     thin_film_share: Scalar = "0.0",
-                    thin_film_thickness: Scalar = "0.0", thin_film: Vector = "vec3<f32>(1.0, 0.0, 0.0)"
+                    thin_film_thickness: Scalar = "0.0", thin_film: Vector = "vec3<f32>(1.0, 0.0, 0.0)",
+                    iors: Color = "Spectrum(lobe.ior)"
                 ]
             }
             Emissive emissive {}

@@ -22,6 +22,7 @@ fn coat_normals(scene: &mut Scene, texture: usize, scale: f64) {
         metallic: one,
         roughness: one,
         ior: 1.5,
+        dispersion: None,
         specular: one,
         specular_color: one,
         transmission: zero,

@@ -1,6 +1,7 @@
 //! `type = "principled"`
 
-use super::keys::{MaterialKeys, ior_or_default, material_keys};
+use super::dispersion::{IndexKeys, Sellmeier, write_index};
+use super::keys::{MaterialKeys, material_keys};
 use super::roughness::MaskingEntry;
 use super::thin_film::{ThinFilmKeys, write_thin_film};
 use crate::load::error::SceneError;
@@ -8,7 +9,7 @@ use crate::load::file::colour::{Colour, Rgb, Scalar};
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{
-    Checked, FilmIndex, Fraction, IndexOfRefraction, Located, MeanCosine, NonNegative, Number, Positive,
+    Checked, FilmIndex, Fraction, IndexOfRefraction, Located, MeanCosine, NonNegative, Number, Positive, Vector,
 };
 use crate::load::file::writer::{self, Writer, flag, line, number};
 use crate::load::place::Place;
@@ -17,7 +18,7 @@ use crate::spectrum::Spectrum;
 
 material_keys! {
     /// The metallic-roughness material of glTF 2.0 (Appendix B) with its extensions for the index of refraction, specular, transmission,
-    /// volume, clearcoat, sheen, anisotropy, diffuse transmission and iridescence.
+    /// volume, dispersion, clearcoat, sheen, anisotropy, diffuse transmission and iridescence.
     #[schemars(extend("allOf" = [
         { "dependentRequired": {
             "anisotropy_rotation": ["anisotropy"],
@@ -42,6 +43,17 @@ material_keys! {
             "if": { "required": ["attenuation_color"] },
             "then": { "anyOf": [{ "required": ["transmission"] }, { "required": ["diffuse_transmission"] }] },
         },
+        {
+            "if": { "anyOf": [{ "required": ["abbe_number"] }, { "required": ["cauchy"] }, { "required": ["sellmeier"] }] },
+            "then": {
+                "properties": { "thin": { "const": false } },
+                "anyOf": [{ "required": ["transmission"] }, { "required": ["subsurface"] }],
+            },
+        },
+        { "not": { "anyOf": [
+            { "required": ["cauchy", "sellmeier"] }, { "required": ["cauchy", "ior"] }, { "required": ["cauchy", "abbe_number"] },
+            { "required": ["sellmeier", "ior"] }, { "required": ["sellmeier", "abbe_number"] },
+        ] } },
         { "not": { "required": ["subsurface", "transmission"] } },
         { "not": { "required": ["subsurface", "diffuse_transmission"] } },
         { "not": { "required": ["attenuation_color", "thin"], "properties": { "thin": { "const": true } } } },
@@ -54,7 +66,13 @@ material_keys! {
         /// Its square is the width of the microfacets. 1 when left out.
         roughness: Option<Scalar<Fraction>>,
         /// Index of refraction of the dielectric, 1.5 when left out.
-        ior: Option<Checked<IndexOfRefraction>>,
+        ior: Option<Located<Checked<IndexOfRefraction>>>,
+        /// Abbe's number (n_d - 1)/(n_F - n_C), with `ior` the index n_d: light of each channel that goes through is bent by an index of its own. All are bent alike when left out.
+        abbe_number: Option<Located<Checked<Positive>>>,
+        /// In place of `ior`: coefficients of Cauchy's formula n = A + B/λ² + C/λ⁴, λ in micrometres.
+        cauchy: Option<Located<Vector>>,
+        /// In place of `ior`: coefficients of Sellmeier's formula n² = 1 + Σ bᵢ·λ²/(λ² - cᵢ), λ in micrometres.
+        sellmeier: Option<Located<Sellmeier>>,
         /// Factor of what the dielectric reflects, 1 when left out.
         specular: Option<Scalar<Fraction>>,
         /// Its colour along the normal, 1 when left out; above 1 it reflects more than the index of refraction says, at most all light.
@@ -132,6 +150,8 @@ impl MaterialKeys for Keys {
         "base_color = [0.8, 0.4, 0.1]\nmetallic = 0.5\nroughness = 0.3\nthin_film_thickness = 400\nthin_film = 0.8",
         "base_color = [0.4, 0.8, 0.9]\nmetallic = 0\nroughness = 0\nior = 1.4\ntransmission = 1\nthin_film_thickness = 300\nthin_film_offset = 50\nthin_film_ior = 1.6",
         "base_color = [0.9, 0.6, 0.5]\nmetallic = 0\nroughness = 0.4\nsubsurface = 0.8\nsubsurface_radius = [0.2, 0.1, 0.05]",
+        "base_color = [0.9, 0.8, 0.7]\nmetallic = 0\nroughness = 0\nior = 1.7\nabbe_number = 9\ntransmission = 1\nclearcoat = 0.5",
+        "base_color = [0.7, 0.8, 0.9]\nmetallic = 0.1\nroughness = 0.5\ncauchy = [1.4, 0.03, 0.002]\ntransmission = 0.8\ndiffuse_transmission = 0.3",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -155,6 +175,7 @@ impl MaterialKeys for Keys {
         let diffuse_transmission_color =
             self.diffuse_transmission_color.as_ref().map(|written| resolver.colour(&written.value)).transpose()?;
         let subsurface = self.subsurface(resolver)?;
+        let (ior, dispersion) = self.index().resolve(resolver)?;
         let film = ThinFilmKeys {
             thickness: self.thin_film_thickness.as_ref(),
             offset: self.thin_film_offset.as_ref(),
@@ -166,7 +187,8 @@ impl MaterialKeys for Keys {
             base_color: resolver.colour_or_white(&self.base_color)?,
             metallic: scalar(&self.metallic, 1.0)?,
             roughness: scalar(&self.roughness, 1.0)?,
-            ior: ior_or_default(self.ior),
+            ior,
+            dispersion,
             specular: scalar(&self.specular, 1.0)?,
             specular_color: resolver.colour_or_white(&self.specular_color)?,
             transmission: scalar(&self.transmission, 0.0)?,
@@ -197,7 +219,7 @@ impl MaterialKeys for Keys {
         let mut out = writer.input("base_color", &principled.base_color)
             + &writer.input("metallic", &principled.metallic)
             + &writer.input("roughness", &principled.roughness)
-            + &line("ior", &number(principled.ior))
+            + &write_index(principled.ior, principled.dispersion.as_ref())
             + &writer.input("specular", &principled.specular)
             + &writer.input("specular_color", &principled.specular_color)
             + &if principled.subsurface.is_some() {
@@ -249,12 +271,29 @@ impl MaterialKeys for Keys {
 }
 
 impl Keys {
+    fn index(&self) -> IndexKeys<'_> {
+        IndexKeys {
+            ior: self.ior.as_ref(),
+            abbe_number: self.abbe_number.as_ref(),
+            cauchy: self.cauchy.as_ref(),
+            sellmeier: self.sellmeier.as_ref(),
+        }
+    }
+
     /// Nothing that is written goes without an effect.
     fn check_unused(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
         if let (Some(attenuation), Some(thin)) = (&self.attenuation_color, &self.thin)
             && thin.value
         {
             return Err(resolver.error(&attenuation.place, "a `thin` wall encloses nothing that could take light"));
+        }
+        if let Some((name, place)) = self.index().place() {
+            if self.thin.as_ref().is_some_and(|thin| thin.value) {
+                return Err(resolver.error(place, format!("`{name}` has no effect: a `thin` wall does not bend light")));
+            }
+            if self.transmission.is_none() && self.subsurface.is_none() {
+                return Err(resolver.error(place, format!("`{name}` needs the key `transmission` or `subsurface`")));
+            }
         }
         if let Some(subsurface) = &self.subsurface {
             let others = [

@@ -35,6 +35,7 @@ impl Resolver<'_> {
             metallic: self.mtl_scalar(written, ["Pm", "map_Pm"], 0.0)?,
             roughness: self.mtl_scalar(written, ["Pr", "map_Pr"], 0.5)?,
             ior,
+            dispersion: None,
             specular: ColorInput::grey(1.0),
             specular_color: ColorInput::grey(1.0),
             // Blender writes what lets light through by `d` and an illumination model of glass.

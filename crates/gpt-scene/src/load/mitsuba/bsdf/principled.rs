@@ -48,7 +48,7 @@ pub fn principled(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
         base_color: Some(plugin.possible(colour.colour(&place))?),
         metallic: Some(share(&metallic)?),
         roughness: Some(share(&roughness)?),
-        ior: Some(plugin.possible(Checked::of(ior.clamp(1.0, 10.0)))?),
+        ior: Some(plugin.at().at(plugin.possible(Checked::of(ior.clamp(1.0, 10.0)))?)),
         ..Default::default()
     };
     let see_through = !is(&transmission, 0.0);
