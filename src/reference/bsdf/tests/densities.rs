@@ -38,7 +38,8 @@ fn surfaces() -> Vec<(String, Bsdf)> {
     // Coats and fibres lie on the outside: from within, what is smooth below them has single directions alone.
     let all = surfaces.len();
     surfaces.retain(|(_, bsdf)| has_density(bsdf));
-    assert_eq!(all - surfaces.len(), 1, "one example is smooth seen from behind, and rough from in front");
+    let left_out = all - surfaces.len();
+    assert!(left_out == 1 || asks_for_one(), "one example is smooth seen from behind, and rough from in front: {left_out}");
     surfaces
 }
 

@@ -181,6 +181,16 @@ fn examples() -> Vec<(String, Lobe, f64)> {
     lobes
 }
 
+/// `GPT_TEST_LOBE=velvet` leaves the lobes whose names contain that word, for those who work on one.
+fn asked_for(lobes: impl Iterator<Item = (String, Lobe, f64)>) -> Vec<(String, Lobe, f64)> {
+    let asked = std::env::var("GPT_TEST_LOBE").unwrap_or_default();
+    lobes.filter(|(name, _, _)| name.contains(&asked)).collect()
+}
+
+fn asks_for_one() -> bool {
+    std::env::var_os("GPT_TEST_LOBE").is_some()
+}
+
 /// Every lobe that is no delta, narrow and wide, with its index of refraction.
 fn non_delta_lobes() -> Vec<(String, Lobe, f64)> {
     let narrow_and_wide = [
@@ -205,13 +215,13 @@ fn non_delta_lobes() -> Vec<(String, Lobe, f64)> {
         ("Phong glass 15", phong_glass(tinted(1.5), 15.0), 1.5),
     ];
     let named = narrow_and_wide.map(|(name, lobe, ior)| (name.to_owned(), lobe, ior));
-    named.into_iter().chain(examples().into_iter().filter(|(_, lobe, _)| !lobe.is_delta())).collect()
+    asked_for(named.into_iter().chain(examples().into_iter().filter(|(_, lobe, _)| !lobe.is_delta())))
 }
 
 /// Lobes that reflect and transmit in single directions.
 fn delta_lobes() -> Vec<(String, Lobe, f64)> {
     let smooth_gold = ("smooth gold".to_owned(), gold(0.0), 1.0);
-    [smooth_gold].into_iter().chain(examples().into_iter().filter(|(_, lobe, _)| lobe.is_delta())).collect()
+    asked_for([smooth_gold].into_iter().chain(examples().into_iter().filter(|(_, lobe, _)| lobe.is_delta())))
 }
 
 /// Weighted lobes: non-delta with non-delta, non-delta with delta, delta with delta, and what nested blends come to.
