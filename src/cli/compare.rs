@@ -5,7 +5,7 @@ use std::path::Path;
 
 use gpt::choice::Choice;
 use gpt::compare::flip::{PIXELS_PER_DEGREE, flip};
-use gpt::compare::{Comparison, Metric, Picture, TileSettings, compare, compare_paired};
+use gpt::compare::{Comparison, ImageView, Metric, TileSettings, compare, compare_paired};
 use gpt::output::{AtomicFile, Channels, Image, PictureKind, read_picture};
 use serde::Serialize;
 
@@ -70,7 +70,7 @@ fn page(
     comparison: &Comparison,
     equal: bool,
 ) -> Result<String, Failure> {
-    let pictures = [reference, picture].map(|image| Picture { width: image.width, pixels: &image.pixels });
+    let pictures = [reference, picture].map(|image| ImageView { width: image.width, pixels: &image.pixels });
     let settings = TileSettings { tile: PAGE_TILE, ..TileSettings::default() };
     let tiles = compare_paired(pictures[0], pictures[1], &settings).map_err(|error| Failure::BadScene(error.to_string()))?;
     let map = flip(picture, reference, PIXELS_PER_DEGREE)?;

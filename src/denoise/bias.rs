@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::raw::Raw;
 use crate::compare::image_tests::ComparisonError;
-use crate::compare::{Finding, ImageComparison, Picture, Scatter, TileSettings, compare_measured, compare_paired};
+use crate::compare::{Finding, ImageComparison, ImageView, Scatter, TileSettings, compare_measured, compare_paired};
 use crate::output::Image;
 
 /// Pixels along a tile's side.
@@ -40,10 +40,10 @@ impl Bias {
     /// Pictures of different sizes.
     pub fn of(raw: &Raw, denoised: &Image) -> Result<Self, ComparisonError> {
         let settings = TileSettings { tile: TILE, ..TileSettings::default() };
-        let pictures = [&raw.picture, denoised].map(|image| Picture { width: image.width, pixels: &image.pixels });
+        let pictures = [&raw.picture, denoised].map(|image| ImageView { width: image.width, pixels: &image.pixels });
         let compared = match &raw.variances {
             Some(variances) => {
-                let variances = Picture { width: raw.picture.width, pixels: variances };
+                let variances = ImageView { width: raw.picture.width, pixels: variances };
                 compare_measured(pictures, &[Scatter { variances, degrees_of_freedom: f64::INFINITY }], &settings)?
             }
             None => compare_paired(pictures[0], pictures[1], &settings)?,

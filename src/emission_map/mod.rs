@@ -2,8 +2,8 @@
 //! whole shapes are drawn.
 
 mod function;
+mod image;
 mod level;
-mod picture;
 mod unrolled;
 
 use std::cell::OnceCell;
@@ -15,7 +15,7 @@ use crate::sampling::HierarchicalWarp;
 use crate::scene::{MaterialId, MaterialKind, Scene};
 use crate::texture::Coordinates;
 use function::Function;
-use picture::Picture;
+use image::EmissionImage;
 pub use unrolled::Unrolled;
 
 /// The mean of the squared luminance over the squared mean from which on points are drawn by luminance. Shapes that are lit more evenly are
@@ -37,7 +37,7 @@ struct EmissionMap<'a> {
 
 #[derive(Debug, Clone)]
 enum Shown<'a> {
-    Picture(Picture),
+    Image(EmissionImage),
     Function(Function<'a>),
 }
 
@@ -73,7 +73,7 @@ impl<'a> EmissionMaps<'a> {
         let lamps = scene.shapes.iter().filter(|shape| shape.materials().any(shows));
         let parts: usize = lamps.map(|shape| shape.geometry.faces().max(1)).sum();
         let of = |id: MaterialId| {
-            let picture = Picture::of(scene, &scene.materials[id], parts).map(Shown::Picture);
+            let picture = EmissionImage::of(scene, &scene.materials[id], parts).map(Shown::Image);
             let shown = picture.or_else(|| Function::of(scene, id, parts).map(Shown::Function))?;
             Some(EmissionMap { shown, evenly: OnceCell::new(), sphere: OnceCell::new() })
         };
@@ -113,7 +113,7 @@ impl EmissionMap<'_> {
 impl Shown<'_> {
     fn mean_over_triangle(&self, corners: &[Coordinates; 3]) -> Option<f64> {
         match self {
-            Self::Picture(picture) => picture.mean_over_triangle(corners),
+            Self::Image(picture) => picture.mean_over_triangle(corners),
             Self::Function(function) => Some(function.floor() + function.mean_over_triangle(corners)),
         }
     }
@@ -121,14 +121,14 @@ impl Shown<'_> {
     /// The mean over the cell of the unit square from its lower to its upper corner, in one of so many rows.
     fn mean_over_cell(&self, [low, high]: [DVec2; 2], rows: u32, unrolled: Unrolled) -> Option<f64> {
         match self {
-            Self::Picture(picture) => picture.mean_over(&[low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]),
+            Self::Image(picture) => picture.mean_over(&[low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]),
             Self::Function(function) => Some(function.mean_over_cell([low, high], rows, unrolled)),
         }
     }
 
     fn cells(&self) -> [u32; 2] {
         match self {
-            Self::Picture(picture) => picture.cells(),
+            Self::Image(picture) => picture.cells(),
             Self::Function(function) => function.cells(),
         }
     }
@@ -137,7 +137,7 @@ impl Shown<'_> {
     /// nothing of it shines: an even share would be noise that even sequences do not have.
     fn floor(&self) -> f64 {
         match self {
-            Self::Picture(_) => 0.0,
+            Self::Image(_) => 0.0,
             Self::Function(function) => function.floor(),
         }
     }

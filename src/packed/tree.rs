@@ -18,7 +18,7 @@ use super::shape::PrimitiveKind;
 use super::world::WorldGeometry;
 use super::{bvh4, instance, ray_query};
 use crate::binary_tree;
-use crate::binary_tree::parts::{KeptTrees, Part, Pose, build_of_parts};
+use crate::binary_tree::parts::{KeptTrees, MovingPart, Pose, build_of_parts};
 
 /// Leaves hold at most this many primitives: their size takes two bits.
 const MAX_LEAF: u32 = 4;
@@ -136,10 +136,11 @@ fn of_two_levels(world: &WorldGeometry, inside: &[usize], kept: &KeptTrees) -> (
 }
 
 /// The shapes with keyframes, each as a part, and what else there is.
-fn parts(world: &WorldGeometry, inside: &[usize], posed: &BTreeMap<usize, Pose>, count: usize) -> Vec<Part> {
-    let mut parts: Vec<Part> = posed.values().map(|pose| Part { reference: Some(pose.clone()), ..Part::default() }).collect();
+fn parts(world: &WorldGeometry, inside: &[usize], posed: &BTreeMap<usize, Pose>, count: usize) -> Vec<MovingPart> {
+    let mut parts: Vec<MovingPart> =
+        posed.values().map(|pose| MovingPart { reference: Some(pose.clone()), ..MovingPart::default() }).collect();
     let places: BTreeMap<usize, usize> = posed.keys().enumerate().map(|(part, &shape)| (shape, part)).collect();
-    let mut others = Part::default();
+    let mut others = MovingPart::default();
     for place in 0..count {
         let part = inside.get(place).and_then(|&index| places.get(&world.primitives[index].shape));
         part.map_or(&mut others, |&part| &mut parts[part]).members.push(place as u32);

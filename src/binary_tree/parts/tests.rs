@@ -95,9 +95,9 @@ impl Stage {
         maps.iter().flat_map(|map| moved(&self.rest, *map)).collect()
     }
 
-    fn parts(&self) -> Vec<Part> {
+    fn parts(&self) -> Vec<MovingPart> {
         let reference = boxes_of(&self.rest);
-        let part = |part: u32| Part {
+        let part = |part: u32| MovingPart {
             members: (part * self.count..(part + 1) * self.count).collect(),
             reference: (part < 2).then(|| Pose { boxes: reference.clone(), unevenness: 1.0 }),
         };
@@ -145,7 +145,7 @@ fn a_tree_does_not_depend_on_those_before_it() {
         let alone = build_of_parts(&boxes, &stage.parts(), &KeptTrees::default(), &build);
         assert!(are_equal(&one_of_several, &alone));
         // The control: without poses for reference it is another.
-        let rest = [Part { members: (0..boxes.len() as u32).collect(), reference: None }];
+        let rest = [MovingPart { members: (0..boxes.len() as u32).collect(), reference: None }];
         assert!(!are_equal(&alone, &build_of_parts(&boxes, &rest, &kept, &build)));
     }
 }
@@ -199,9 +199,9 @@ fn what_is_kept_is_not_built_again_until_it_is_forgotten() {
 #[test]
 fn nothing_and_little_have_trees() {
     let kept = KeptTrees::default();
-    assert!(build_of_parts(&[], &[Part::default()], &kept, &build).nodes.is_empty());
+    assert!(build_of_parts(&[], &[MovingPart::default()], &kept, &build).nodes.is_empty());
     let boxes = boxes_of(&soup(2));
     let parts =
-        [0, 1].map(|index| Part { members: vec![index], reference: Some(Pose { boxes: vec![boxes[0]], unevenness: 1.0 }) });
+        [0, 1].map(|index| MovingPart { members: vec![index], reference: Some(Pose { boxes: vec![boxes[0]], unevenness: 1.0 }) });
     checked_depth(&build_of_parts(&boxes, &parts, &kept, &build), &boxes);
 }

@@ -20,7 +20,7 @@ const SHARE: u32 = 20;
 
 /// The picture as it was at some time.
 #[derive(Debug, Clone, Default)]
-pub struct Picture {
+pub struct LivePicture {
     /// Counts pictures, so that who has seen one knows.
     pub number: u64,
     pub width: u32,
@@ -75,7 +75,7 @@ struct Shown {
     version: u64,
     status: Status,
     began: Option<Instant>,
-    picture: Arc<Picture>,
+    picture: Arc<LivePicture>,
     layers: Vec<LayerImage>,
     /// When it was last asked for; who receives every picture counts as always asking.
     asked: Option<Instant>,
@@ -98,7 +98,7 @@ pub struct Board {
 pub struct View {
     pub version: u64,
     pub status: Status,
-    pub picture: Arc<Picture>,
+    pub picture: Arc<LivePicture>,
     pub layers: Vec<LayerImage>,
     /// There will be nothing newer.
     pub is_closed: bool,
@@ -180,7 +180,7 @@ impl Board {
     /// Rows of a picture of this size replace those that are shown. `made_since`: when the making of them began.
     pub fn rows(&self, rows: Band, height: u32, made_since: Instant) {
         let is_whole = rows.first_row == 0 && rows.rows == height;
-        let mut picture = Picture::default();
+        let mut picture = LivePicture::default();
         let mut part = None;
         if is_whole {
             picture.take(rows, height)
@@ -238,7 +238,7 @@ fn seconds_since(began: Option<Instant>) -> f64 {
     began.map_or(0.0, |began| began.elapsed().as_secs_f64())
 }
 
-impl Picture {
+impl LivePicture {
     /// Takes rows over, in a picture of their width and of this height.
     fn take(&mut self, rows: Band, height: u32) {
         let pixels = rows.width as usize * height as usize;

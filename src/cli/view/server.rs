@@ -13,7 +13,7 @@ use gpt::film::Band;
 use gpt::output::{PictureFile, PictureFormat, PictureSpec};
 use serde::Serialize;
 
-use super::board::{Board, Picture, Status, View};
+use super::board::{Board, LivePicture, Status, View};
 use super::request::{Door, Request, answer};
 
 /// The page, all in one file.
@@ -261,7 +261,7 @@ fn pixels(view: &View, layer: Option<&str>) -> Option<io::Result<Vec<u8>>> {
 }
 
 /// The picture as a file.
-fn exr(picture: &Picture) -> io::Result<Vec<u8>> {
+fn exr(picture: &LivePicture) -> io::Result<Vec<u8>> {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("picture.exr");
     let failed = |error: gpt::output::OutputError| io::Error::other(error.to_string());

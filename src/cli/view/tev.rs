@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::super::terminal;
-use super::board::{Board, Picture};
+use super::board::{Board, LivePicture};
 
 /// How long a connection may take to come about, with the search for its address, and a packet to be taken.
 const CONNECT: Duration = Duration::from_secs(3);
@@ -115,7 +115,7 @@ fn send_pictures(mut connection: &TcpStream, board: &Board) -> io::Result<()> {
     }
 }
 
-fn send(mut connection: &TcpStream, name: &str, picture: &Picture) -> io::Result<()> {
+fn send(mut connection: &TcpStream, name: &str, picture: &LivePicture) -> io::Result<()> {
     let at_once = (PIXELS_AT_ONCE / picture.width).max(1);
     for first in (0..picture.height).step_by(at_once as usize) {
         let end = (first + at_once).min(picture.height);

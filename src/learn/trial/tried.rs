@@ -222,21 +222,21 @@ impl InView {
 }
 
 /// The random numbers of one of the independent pictures.
-struct Picture {
+struct Replication {
     sampling: Sampling,
     points: Vec<SequencePoint>,
 }
 
-fn pictures(integrator: &Integrator, count: u32) -> Vec<Picture> {
+fn pictures(integrator: &Integrator, count: u32) -> Vec<Replication> {
     let picture = |number: u32| {
         let seed = mix(SEED.wrapping_add(number));
         let sampling = Sampling { seed, samples: SAMPLES, ..Sampling::from(&integrator.scene().render) };
-        Picture { sampling, points: (0..SAMPLES).map(|sample| SequencePoint::new(&sampling, sample)).collect() }
+        Replication { sampling, points: (0..SAMPLES).map(|sample| SequencePoint::new(&sampling, sample)).collect() }
     };
     (0..count).map(picture).collect()
 }
 
-impl Picture {
+impl Replication {
     /// Renders a pixel.
     fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> Shown<R::Told> {
         let size = integrator.scene().film.size;
@@ -286,7 +286,7 @@ struct TriedPixel {
 
 impl TriedPixel {
     /// With what a sample of it tells of other ways.
-    fn of<R: Record>(integrator: &Integrator, pictures: &[Picture], number: u32) -> (Self, R::Told) {
+    fn of<R: Record>(integrator: &Integrator, pictures: &[Replication], number: u32) -> (Self, R::Told) {
         let shown: Vec<Shown<R::Told>> = pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
         let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<Spectrum>>());
         let in_view = shown.iter().map(|shown| shown.in_view).sum::<Spectrum>() / f64::from(PICTURES);

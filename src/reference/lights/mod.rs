@@ -8,10 +8,10 @@ mod directional;
 mod environment;
 mod outside;
 mod point;
+mod projected_picture;
 mod projector;
 mod sky;
 mod spot;
-mod thrown_picture;
 
 use std::collections::HashMap;
 use std::f64::consts::PI;

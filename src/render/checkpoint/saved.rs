@@ -29,7 +29,7 @@ pub struct Saved {
 /// A render in steps, before the batch under way.
 #[derive(Debug, Clone, Default)]
 pub struct StepsState {
-    pub place: Place,
+    pub place: StepPosition,
     pub tally: Tally,
     /// Sums of the picture: means by their numbers of samples, and these.
     pub radiance: Vec<[f32; 3]>,
@@ -48,7 +48,7 @@ pub struct StepsState {
 
 /// The position of a render in its steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Place {
+pub struct StepPosition {
     /// The stage and the interval of the doublings, where samples follow the noise.
     pub stage: usize,
     pub interval: usize,
@@ -81,7 +81,7 @@ struct BatchHeader {
 
 #[derive(Serialize, Deserialize)]
 struct StepsHeader {
-    place: Place,
+    place: StepPosition,
     tally: [u64; 5],
     pixels: usize,
     rows: usize,
@@ -237,7 +237,7 @@ mod tests {
             let (done, reached) = if film.is_empty() { (0, 0) } else { (5, 3) };
             let batch = BatchState { rows: 1..3, done, sweep: 2, reached, film: Arc::new(film), tally: tally([1, 2, 3, 4, 5]) };
             let steps = StepsState {
-                place: Place { stage: 1, interval: 2, next: 3, requests: 4, stream: 5 },
+                place: StepPosition { stage: 1, interval: 2, next: 3, requests: 4, stream: 5 },
                 tally: tally([4, 5, 6, 7, 8]),
                 radiance: vec![[0.5; 3]; 6],
                 counts: vec![3; 6],

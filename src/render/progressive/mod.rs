@@ -12,11 +12,11 @@
 //!   happened to be dark would get few more and stay dark: that estimator is biased.
 
 pub mod allocation;
+pub mod batch_sums;
 pub mod doublings;
 pub mod error;
 mod goal;
 mod keeping;
-pub mod picture;
 pub mod schedule;
 mod steps;
 mod watching;

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::io;
 
-use super::picture::Picture;
+use super::batch_sums::BatchSums;
 use crate::film::{Band, rounded};
 use crate::renderer::sink::Sink;
 use crate::renderer::state::BatchState;
@@ -59,7 +59,7 @@ impl Sink for Watched<'_> {
 
 impl Watch<'_> {
     /// Shows what the film has, together with what earlier batches brought.
-    pub fn show(&self, state: &BatchState, before: Option<&Picture>) {
+    pub fn show(&self, state: &BatchState, before: Option<&BatchSums>) {
         let rows = state.rows.clone();
         let band = rows_of(state, self.batch, self.width, before);
         if state.film.is_empty() && before.is_none() {
@@ -75,7 +75,7 @@ impl Watch<'_> {
 }
 
 /// Rows as means. Of pixels that have no samples of the batch, the film may hold something else.
-fn rows_of(state: &BatchState, batch: &Batch<'_>, width: u32, before: Option<&Picture>) -> Band {
+fn rows_of(state: &BatchState, batch: &Batch<'_>, width: u32, before: Option<&BatchSums>) -> Band {
     let first = state.rows.start as usize * width as usize;
     let pixels = state.rows.len() * width as usize;
     let mut band = Band {
@@ -194,7 +194,7 @@ mod tests {
         assert_eq!((band.first_row, band.rows, band.samples), (1, 2, 0));
         assert_eq!(band.counts, Some(vec![2, 0, 2, 2, 0, 0]), "one takes no part, and two are not reached");
         assert_eq!((band.mean[0], band.mean[1], band.second_moment[0]), ([1.0, 2.0, 3.0], [0.0; 3], 4.0));
-        let before = Picture::with_sums([3, 3], vec![[4.0; 3]; 9], vec![2; 9], vec![2.0; 3]).expect("its size");
+        let before = BatchSums::with_sums([3, 3], vec![[4.0; 3]; 9], vec![2; 9], vec![2.0; 3]).expect("its size");
         let band = rows_of(&state(), &batch, 3, Some(&before));
         assert_eq!((band.mean[0], band.mean[1]), ([1.5, 2.0, 2.5], [2.0; 3]));
         assert_eq!(band.counts, Some(vec![4, 2, 4, 4, 2, 2]));

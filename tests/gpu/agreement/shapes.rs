@@ -66,7 +66,7 @@ const ONE_SIDED: &str = "type = \"emissive\"\nradiance = [1, 2, 3]";
 const PATTERNED: &str = "type = \"emissive\"\nradiance = { texture = \"checks\" }\ntwo_sided = true";
 
 /// A shape in a part.
-struct Part {
+struct ShapeCase {
     name: String,
     shape: String,
     placed: String,
@@ -74,7 +74,7 @@ struct Part {
     is_infinite: bool,
 }
 
-impl Part {
+impl ShapeCase {
     fn scene(&self) -> Scene {
         stage(&self.shape, &self.placed, self.material).unwrap_or_else(|error| panic!("{}: {error}", self.name))
     }
@@ -90,14 +90,14 @@ impl Part {
 }
 
 /// Every shape in all its parts; those that cannot be in one are told from the rest by what they are.
-fn parts() -> Vec<Part> {
+fn parts() -> Vec<ShapeCase> {
     let mut parts = Vec::new();
     for (name, shape) in load::file::shape_examples() {
         let plain = stage(&shape, TURNED, PLAIN).unwrap_or_else(|error| panic!("{error}"));
         let geometry = plain.shapes[1].geometry.clone();
         let mut add = |part: &str, placed: &str, material: &'static str| {
             let (shape, placed, is_infinite) = (shape.clone(), placed.to_owned(), geometry.is_infinite());
-            parts.push(Part { name: format!("{name}, {part}"), shape, placed, material, is_infinite });
+            parts.push(ShapeCase { name: format!("{name}, {part}"), shape, placed, material, is_infinite });
         };
         add("turned", TURNED, PLAIN);
         add("glowing", TURNED, GLOWING);
@@ -117,8 +117,8 @@ fn parts() -> Vec<Part> {
 }
 
 /// All that a wall can hold: what is infinite would fill it, and portals would be what all its light comes through.
-fn wall() -> (Vec<Part>, Wall) {
-    let parts: Vec<Part> = parts().into_iter().filter(|part| !part.is_infinite && !part.name.ends_with("portal")).collect();
+fn wall() -> (Vec<ShapeCase>, Wall) {
+    let parts: Vec<ShapeCase> = parts().into_iter().filter(|part| !part.is_infinite && !part.name.ends_with("portal")).collect();
     let shared = STAGE.find("[[texture]]").expect("there are textures")..STAGE.rfind("[[shape]]").expect("there is a floor");
     let tables = format!(
         "{}{}[[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = [8, 7, 6]\n",
@@ -138,7 +138,7 @@ fn every_shape_agrees_in_every_part() {
     wall.assert_agrees("shapes", &PlanOptions::default(), |_| {});
     wall.assert_agrees("shapes, wavefront", &by_wavefront, |scene| scene.render.estimator = Estimator::Nee);
     let everywhere = in_full("each part of each shape alone");
-    let alone = |part: &Part| part.is_infinite && (part.name.ends_with("turned") || part.name.ends_with("glowing"));
+    let alone = |part: &ShapeCase| part.is_infinite && (part.name.ends_with("turned") || part.name.ends_with("glowing"));
     for (index, part) in parts().into_iter().filter(|part| everywhere || alone(part)).enumerate() {
         let (name, mut scene) = (&part.name, part.scene());
         if index % 2 == 0 {

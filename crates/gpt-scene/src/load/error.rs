@@ -20,12 +20,12 @@ struct Details {
     message: String,
     help: Option<String>,
     key: Option<String>,
-    place: Option<Place>,
+    place: Option<TextPosition>,
     others: Vec<SceneError>,
 }
 
 #[derive(Debug, Clone)]
-struct Place {
+struct TextPosition {
     line: usize,
     column: usize,
     /// None where the text is not shown.
@@ -42,7 +42,7 @@ impl SceneError {
     /// A mistake in a line of a file whose text is not shown. Lines count from 1.
     pub fn in_line(file: impl fmt::Display, line: usize, message: impl Into<String>) -> Self {
         let mut error = Self::in_file(file, message);
-        error.0.place = Some(Place { line, column: 1, excerpt: None });
+        error.0.place = Some(TextPosition { line, column: 1, excerpt: None });
         error
     }
 
@@ -55,7 +55,7 @@ impl SceneError {
         let line = before.matches('\n').count() + 1;
         let column = text[line_start..start].chars().count() + 1;
         let mut error = Self::in_file(file, message);
-        error.0.place = Some(Place { line, column, excerpt: Some(Excerpt::around(text, start..end)) });
+        error.0.place = Some(TextPosition { line, column, excerpt: Some(Excerpt::around(text, start..end)) });
         error
     }
 

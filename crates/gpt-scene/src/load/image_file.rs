@@ -100,7 +100,7 @@ impl Hash for PictureSource {
 
 /// A picture that was read.
 #[derive(Debug)]
-pub struct Picture {
+pub struct DecodedImage {
     pub image: ImageData,
     /// Bits of an integer; None: floating-point numbers.
     pub integer_bits: Option<u16>,
@@ -159,12 +159,12 @@ impl Pictures {
     }
 
     /// [`read_image`] within this budget.
-    pub fn read_file(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+    pub fn read_file(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<DecodedImage, String> {
         self.read(&PictureSource::File(path.to_owned()), color_space)
     }
 
     /// Reads a picture from a file, or from within one.
-    pub fn read(&self, source: &PictureSource, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+    pub fn read(&self, source: &PictureSource, color_space: Option<ColorSpace>) -> Result<DecodedImage, String> {
         let file = PictureFile::open(self.open(source)?, source.name(), color_space)?;
         let integer_bits = match &file {
             PictureFile::Coded(file) => Some(file.bits()).filter(|bits| *bits <= 16),
@@ -177,7 +177,7 @@ impl Pictures {
         let beyond =
             (beyond > 0).then(|| format!("{beyond} texels have colours beyond Rec. 709: 0 stands for what is negative in them"));
         let change = [beyond, clamp(&mut image)?].into_iter().flatten().reduce(|a, b| format!("{a}; {b}"));
-        Ok(Picture { image, integer_bits, change, notes, hints, is_plain })
+        Ok(DecodedImage { image, integer_bits, change, notes, hints, is_plain })
     }
 
     fn open(&self, source: &PictureSource) -> Result<AnyFile, String> {

@@ -13,8 +13,8 @@ use crate::sampling::light_cells::table;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
     EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, Light, LightChoice, Masking, Material,
-    MaterialKind, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene,
-    Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, ThrownPicture, Transform,
+    MaterialKind, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, ProjectedTexture,
+    Rectangle, Scene, Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, Transform,
 };
 use crate::spectrum::Spectrum;
 
@@ -209,7 +209,7 @@ fn everything() -> Scene {
     assert!(scene.lights.len() >= LightKind::DELTA.len(), "every kind has an example: {:?}", scene.lights);
     for light in &mut scene.lights {
         match light {
-            Light::Spot(spot) => spot.picture = Some(ThrownPicture { texture: 1, up: DVec3::X }),
+            Light::Spot(spot) => spot.picture = Some(ProjectedTexture { texture: 1, up: DVec3::X }),
             Light::Projector(projector) => projector.texture = Some(4),
             _ => {}
         }

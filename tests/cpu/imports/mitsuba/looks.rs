@@ -94,7 +94,7 @@ const HAMMERED: &[u8] = include_bytes!("../../../../scenes/textures/hammered.png
 
 /// Bump maps, and textures that lights throw, are read without a word; the picture is that of the scene file written from it.
 #[test]
-fn bumps_and_thrown_pictures_are_exact() {
+fn bumps_and_projected_pictures_are_exact() {
     let xml = with(
         r#"<shape type="rectangle"><bsdf type="bumpmap"><texture type="bitmap"><string name="filename" value="h.png"/></texture><float name="scale" value="0.1"/>
           <bsdf type="diffuse"/></bsdf></shape>

@@ -15,7 +15,7 @@ use super::value::{Located, Rule, Vector, vector};
 use crate::load::access::Access;
 use crate::load::error::{MOST_ERRORS, SceneError, show};
 use crate::load::files::Files;
-use crate::load::image_file::{EmbeddedFile, Picture, PictureSource, Pictures};
+use crate::load::image_file::{DecodedImage, EmbeddedFile, PictureSource, Pictures};
 use crate::load::model::Substitute;
 use crate::load::place::Place;
 use crate::load::volume::PlacedGrid;
@@ -43,8 +43,8 @@ pub struct CachedImage {
     pub is_plain: bool,
 }
 
-impl From<Picture> for CachedImage {
-    fn from(Picture { image, integer_bits, change, notes, hints, is_plain }: Picture) -> Self {
+impl From<DecodedImage> for CachedImage {
+    fn from(DecodedImage { image, integer_bits, change, notes, hints, is_plain }: DecodedImage) -> Self {
         Self { image: Arc::new(image), integer_bits, change, notes, hints, is_plain }
     }
 }

@@ -9,7 +9,7 @@ use super::mtl::Libraries;
 use super::statements::{FREE_FORM, HARMLESS, is_statement};
 use super::vertices::{Kind, Vertices};
 use crate::load::mends::Mends;
-use crate::load::model::{ModelFile, Part, Substitute};
+use crate::load::model::{ModelFile, ModelPart, Substitute};
 use crate::load::polygon::triangulate;
 use crate::load::printable::short_list;
 use crate::load::spelling::lines::{Statements, before_spaced_comment, first_word, trimmed, without_comment, words};
@@ -286,7 +286,7 @@ impl<'a> Faces<'a> {
         let PartInTheMaking { material, mut mesh, .. } = std::mem::take(&mut self.part);
         self.left_out.without_area += mesh.drop_degenerate_faces();
         if !mesh.faces.is_empty() {
-            self.file.parts.push(Part { mesh, material });
+            self.file.parts.push(ModelPart { mesh, material });
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_MODEL_BYTES};
 use crate::load::memory;
 use crate::load::mends::Mends;
-use crate::load::model::{FARTHEST, MeshAttribute, ModelFile, Part};
+use crate::load::model::{FARTHEST, MeshAttribute, ModelFile, ModelPart};
 use crate::load::polygon::triangulate;
 use crate::load::printable::short_list;
 use crate::scene::Mesh;
@@ -362,7 +362,7 @@ impl Model {
             attribute.values = polygons.iter().map(|&face| of_polygons.get(face).copied().unwrap_or_default()).collect();
         }
         leave_out_unread(&mut mesh, &mut attributes);
-        let parts = vec![Part { mesh, material: None }];
+        let parts = vec![ModelPart { mesh, material: None }];
         let substitutes = mends.into_iter().map(|mend| (Default::default(), mend)).collect();
         Ok(ModelFile { parts, face_groups, attributes, warnings, substitutes, ..ModelFile::default() })
     }

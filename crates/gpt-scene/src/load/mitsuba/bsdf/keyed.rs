@@ -8,7 +8,7 @@ use crate::spectrum::Spectrum;
 
 /// The BSDFs within another one.
 #[derive(Debug, Default)]
-pub struct Parts {
+pub struct NestedBsdfs {
     /// The names of their materials.
     pub names: Vec<String>,
     /// The map of normals or heights that all of them have.

@@ -11,7 +11,7 @@ mod wrapped;
 
 use std::rc::Rc;
 
-use self::keyed::{Keyed, Parts, Relief, black, grey, nothing};
+use self::keyed::{Keyed, NestedBsdfs, Relief, black, grey, nothing};
 use super::converter::Converter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
@@ -171,9 +171,9 @@ impl Converter<'_> {
     }
 
     /// All BSDFs within another one, whose normals are its own.
-    fn parts(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Parts, SceneError> {
+    fn parts(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<NestedBsdfs, SceneError> {
         let within: Vec<Rc<Plugin>> = plugin.children_of("bsdf").into_iter().cloned().collect();
-        let mut parts = Parts::default();
+        let mut parts = NestedBsdfs::default();
         let mut maps = Vec::new();
         for part in &within {
             let made = self.bsdf(part, depth + 1)?;

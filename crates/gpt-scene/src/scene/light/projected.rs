@@ -22,7 +22,7 @@ pub struct SpotLight {
     pub falloff_degrees: f64,
     pub curve: FalloffCurve,
     /// The picture that multiplies the intensity and fills the square around the cone.
-    pub picture: Option<ThrownPicture>,
+    pub picture: Option<ProjectedTexture>,
 }
 
 /// How the intensity of a spot light falls from 1 to 0 between its two angles.
@@ -39,7 +39,7 @@ pub enum FalloffCurve {
 
 /// A texture that a light throws.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ThrownPicture {
+pub struct ProjectedTexture {
     pub texture: TextureId,
     /// The direction in which the texture's v grows, projected across the light's direction; u grows to the right, as seen from the light.
     pub up: DVec3,

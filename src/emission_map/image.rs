@@ -18,7 +18,7 @@ const FINE_TEXELS: [usize; 2] = [1 << 16, 1 << 20];
 
 /// The luminance of one picture as it lies on a lamp.
 #[derive(Debug, Clone)]
-pub struct Picture {
+pub struct EmissionImage {
     /// From finest to coarsest.
     levels: Vec<Level>,
     wrap: [TextureWrap; 2],
@@ -43,7 +43,7 @@ fn shown<'a>(scene: &'a Scene, material: &Material) -> Option<(ColorInput, &'a I
     (image.filter != TextureFilter::Triangle && texture.times.is_none()).then_some((input, image))
 }
 
-impl Picture {
+impl EmissionImage {
     /// The map of a scene whose textured area lights have so many parts. None where the material emits by
     /// more than an image.
     pub fn of(scene: &Scene, material: &Material, parts: usize) -> Option<Self> {
