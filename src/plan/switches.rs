@@ -212,7 +212,7 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     for &kind in LightKind::DELTA {
         switches.enable(kind.number_name(), has(kind));
     }
-    switches.enable("LIGHT_TEXTURES", packed.lights.iter().any(PackedLight::throws_texture));
+    switches.enable("LIGHT_TEXTURES", packed.lights.iter().any(PackedLight::projects_texture));
     switches.enable("SPOT_FALLOFFS", packed.lights.iter().any(|light| light.is(LightKind::Spot) && light.form() != 0));
     let environment = !packed.environment.is_black();
     switches.enable("ENVIRONMENT", environment);

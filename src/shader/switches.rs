@@ -217,7 +217,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("LIGHTS_BY_PICTURE")
         .requires(&["LIGHTS", "TEXELS", "TEXTURES", "VARYING_LIGHTS"])
         .one_of(&["AREA_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_PICTURE"]),
-    // Some delta light throws a texture.
+    // Some delta light projects a texture.
     switch("LIGHT_TEXTURES").requires(&["DELTA_LIGHTS", "TEXTURES"]),
     // Some surface encloses a medium that takes or gives light, or the camera is within one.
     switch("MEDIA"),

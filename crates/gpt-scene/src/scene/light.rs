@@ -334,7 +334,7 @@ impl Light {
         self.model_mut().image_mut()
     }
 
-    /// The texture that it throws, if it does.
+    /// The texture that it projects, if it does.
     pub fn texture(&self) -> Option<TextureId> {
         self.model().texture()
     }

@@ -37,7 +37,7 @@ pub enum FalloffCurve {
     Linear,
 }
 
-/// A texture that a light throws.
+/// A texture that a light projects.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProjectedTexture {
     pub texture: TextureId,
@@ -134,7 +134,7 @@ impl DeltaLight for SpotLight {
     }
 }
 
-/// A light from one point that throws a rectangular picture: on a plane across its direction at distance 1, which faces it, the picture makes
+/// A light from one point that projects a rectangular picture: on a plane across its direction at distance 1, which faces it, the picture makes
 /// `irradiance` times the texture's colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projector {

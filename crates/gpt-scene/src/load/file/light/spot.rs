@@ -135,7 +135,7 @@ impl Keys {
     }
 }
 
-/// Which way is up in a picture that a light throws along `direction`.
+/// Which way is up in a picture that a light projects along `direction`.
 pub fn up_across(
     resolver: &Resolver<'_>,
     direction: &Located<Vector>,
