@@ -117,12 +117,12 @@ mod tests {
         (Raw { picture: of(noisy), albedo: None, normal: None, variances, placed: None }, of(smooth))
     }
 
-    /// A lamp of which each of its pixels has a sample or two: noise would explain that it is gone, and that it is gone is told.
+    /// An emitter of which each of its pixels has a sample or two: noise would explain that it is gone, and that it is gone is told.
     #[test]
     fn a_small_bright_thing_that_is_gone_is_told_of() {
         let (mut raw, denoised) = pictures(1.0, true);
-        let lamp = [20 * SIDE as usize + 20, 20 * SIDE as usize + 21];
-        for pixel in lamp {
+        let emitter = [20 * SIDE as usize + 20, 20 * SIDE as usize + 21];
+        for pixel in emitter {
             // One of 16 samples met it, so the deviation of the mean is as large as the mean.
             raw.picture.pixels[pixel] = [500.0; 3];
             raw.variances.as_mut().expect("they are there")[pixel] = [500.0 * 500.0; 3];
@@ -130,7 +130,7 @@ mod tests {
         let bias = Bias::of(&raw, &denoised).expect("one size");
         assert_eq!((bias.biased_tiles, bias.undecided_tiles), (0, 1), "{bias}");
         assert!(bias.largest_undecided < -0.8 && bias.to_string().contains("in 1 the change is above 10 % (-8"), "{bias}");
-        // The control: without the lamp, nothing is told.
+        // The control: without the emitter, nothing is told.
         let (raw, denoised) = pictures(1.0, true);
         assert!(!Bias::of(&raw, &denoised).expect("one size").to_string().contains("above"));
     }

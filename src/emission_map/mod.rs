@@ -50,9 +50,9 @@ struct Whole {
     warp: Option<Arc<HierarchicalWarp>>,
 }
 
-/// A piece of a lamp's surface.
+/// A piece of an area light's surface.
 #[derive(Debug, Clone, Copy)]
-pub enum LampPart {
+pub enum EmitterPart {
     /// A triangle, with the texture coordinates at its corners.
     Triangle([Coordinates; 3]),
     Whole(Unrolled),
@@ -70,8 +70,8 @@ impl<'a> EmissionMaps<'a> {
         if !(0..emits.len()).any(shows) {
             return Self::default();
         }
-        let lamps = scene.shapes.iter().filter(|shape| shape.materials().any(shows));
-        let parts: usize = lamps.map(|shape| shape.geometry.faces().max(1)).sum();
+        let emitters = scene.shapes.iter().filter(|shape| shape.materials().any(shows));
+        let parts: usize = emitters.map(|shape| shape.geometry.faces().max(1)).sum();
         let of = |id: MaterialId| {
             let picture = EmissionImage::of(scene, &scene.materials[id], parts).map(Shown::Image);
             let shown = picture.or_else(|| Function::of(scene, id, parts).map(Shown::Function))?;
@@ -80,13 +80,13 @@ impl<'a> EmissionMaps<'a> {
         Self { maps: (0..emits.len()).map(|id| if shows(id) { of(id) } else { None }).collect() }
     }
 
-    /// The mean luminance that a material sends out from a part of a lamp, positive where anything of it shines. None: that of the whole material
+    /// The mean luminance that a material sends out from a part of an area light, positive where anything of it shines. None: that of the whole material
     /// is all that is known.
-    pub fn luminance(&self, material: MaterialId, part: &LampPart) -> Option<f64> {
+    pub fn luminance(&self, material: MaterialId, part: &EmitterPart) -> Option<f64> {
         let map = self.map(material)?;
         match part {
-            LampPart::Triangle(corners) => map.shown.mean_over_triangle(corners),
-            LampPart::Whole(unrolled) => map.whole(*unrolled).luminance,
+            EmitterPart::Triangle(corners) => map.shown.mean_over_triangle(corners),
+            EmitterPart::Whole(unrolled) => map.whole(*unrolled).luminance,
         }
     }
 

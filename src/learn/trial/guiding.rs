@@ -116,7 +116,7 @@ mod tests {
         }
     }
 
-    /// A guide pays where light comes through a gap, and not where a lamp lights what is seen.
+    /// A guide pays where light comes through a gap, and not where an emitter lights what is seen.
     #[test]
     fn a_guide_pays_where_light_is_hard_to_find() {
         let behind_a_wall = loss_with_guide(&mut guided("0.2", |_| ()));

@@ -181,7 +181,7 @@ fn weight(mean: Spectrum) -> Spectrum {
     mean.map(relative_weight)
 }
 
-/// Lamps and the environment as they are in view. All ways of drawing from lights have the same noise at
+/// Emitters and the environment as they are in view. All ways of drawing from lights have the same noise at
 /// their edges, which few pixels show: those that are tried may miss them.
 pub struct InView {
     /// Mean and variance of pixels.
@@ -303,8 +303,8 @@ mod tests {
     use super::*;
     use crate::load;
 
-    /// A lamp before the camera, from so far left to so far right.
-    fn lamp(from: f64, to: f64) -> Integrator {
+    /// An area light before the camera, from so far left to so far right.
+    fn area_light(from: f64, to: f64) -> Integrator {
         let text = format!(
             "[film]\nsize = [64, 64]\n[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = 40\n\
              [[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = 2\n\
@@ -318,13 +318,13 @@ mod tests {
     /// A light's edge within pixels makes their samples differ: by as much whether few pixels are looked at
     /// or all. A light that fills the view does not.
     #[test]
-    fn edges_of_lamps_in_view_have_noise() {
+    fn edges_of_emitters_in_view_have_noise() {
         let beyond = Spectrum::BLACK;
-        let error = |from, to, pixels| InView::new(&mut lamp(from, to), pixels).error(beyond) / f64::from(pixels);
+        let error = |from, to, pixels| InView::new(&mut area_light(from, to), pixels).error(beyond) / f64::from(pixels);
         assert_eq!(error(-9.0, 9.0, 64), 0.0);
         let [few, all] = [64, 1024].map(|pixels| error(-0.517, 0.391, pixels));
         assert!(all > 0.0 && (few / all - 1.0).abs() < 0.3, "{few} and {all}");
         // Relative to more light, it is less.
-        assert!(InView::new(&mut lamp(-0.517, 0.391), 64).error(Spectrum::grey(10.0)) < 0.1 * 64.0 * few);
+        assert!(InView::new(&mut area_light(-0.517, 0.391), 64).error(Spectrum::grey(10.0)) < 0.1 * 64.0 * few);
     }
 }

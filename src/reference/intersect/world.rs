@@ -11,7 +11,7 @@ use super::owner::{Owner, SurfaceId};
 use super::pose::{self, PathTime, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive};
-use crate::emission_map::LampPart;
+use crate::emission_map::EmitterPart;
 use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::scene::{MaterialId, Scene, Shape};
@@ -141,12 +141,12 @@ impl World {
         &self.primitives[index]
     }
 
-    /// The part of a lamp that a primitive is; None of what has no texture coordinates.
-    pub fn lamp_part(&self, index: usize) -> Option<LampPart> {
+    /// The part of an area light that a primitive is; None of what has no texture coordinates.
+    pub fn emitter_part(&self, index: usize) -> Option<EmitterPart> {
         let owner = self.owners[index];
         match &self.primitives[index] {
-            Primitive::Triangle(_) => self.shapes[owner.shape].coordinates_of_corners(owner.part).map(LampPart::Triangle),
-            Primitive::Other(element) => element.unrolled().map(LampPart::Whole),
+            Primitive::Triangle(_) => self.shapes[owner.shape].coordinates_of_corners(owner.part).map(EmitterPart::Triangle),
+            Primitive::Other(element) => element.unrolled().map(EmitterPart::Whole),
         }
     }
 
@@ -254,7 +254,7 @@ impl World {
                 product = 0.0;
                 return false;
             }
-            work::add(work::VEIL);
+            work::add(work::TRANSLUCENT_SURFACE);
             let near = self.surface(&ray, &Hit { surface, distance, local }, time);
             product *= share(&near);
             // The far side of what is curved; instances are of triangles.

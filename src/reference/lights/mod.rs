@@ -23,7 +23,7 @@ use glam::{DVec2, DVec3};
 use super::emission::{emitted, mean_exitance};
 use super::intersect::{Outline, Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use super::work;
-use crate::emission_map::{EmissionMaps, LampPart, Unrolled};
+use crate::emission_map::{EmissionMaps, EmitterPart, Unrolled};
 use crate::sampling::light_cells::{LightCellChoice, LightCells, LitPoint};
 use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
 use crate::sampling::light_tree::Emitter;
@@ -132,7 +132,7 @@ impl Lights {
             if exitances[material] == 0.0 {
                 continue;
             }
-            let of_part = world.lamp_part(index).and_then(|part| exitance_of_part(&maps, (material, two_sided[material]), &part));
+            let of_part = world.emitter_part(index).and_then(|part| exitance_of_part(&maps, (material, two_sided[material]), &part));
             let power = world.primitive(index).area() * of_part.unwrap_or(exitances[material]);
             if power > 0.0 {
                 if let Some(unrolled) = world.primitive(index).element().unrolled() {
@@ -426,7 +426,7 @@ impl Lights {
 
 /// [`mean_exitance`] for the part of a material that lies between these texture coordinates; None: nothing
 /// more is known of it.
-fn exitance_of_part(maps: &EmissionMaps, (material, two_sided): (MaterialId, bool), part: &LampPart) -> Option<f64> {
+fn exitance_of_part(maps: &EmissionMaps, (material, two_sided): (MaterialId, bool), part: &EmitterPart) -> Option<f64> {
     Some(PI * maps.luminance(material, part)? * if two_sided { 2.0 } else { 1.0 })
 }
 

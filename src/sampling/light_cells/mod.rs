@@ -1,5 +1,5 @@
 //! Which lights reach which part of a scene, as a table that both devices read: next event estimation chooses by it where a scene has lights
-//! that do not reach most of its surfaces, or are much stronger there than elsewhere: many lamps behind walls, or a lamp and a window.
+//! that do not reach most of its surfaces, or are much stronger there than elsewhere: many lights behind walls, or a light and a window.
 //!
 //! Space is cut into cells, by position and by which way a surface faces. Each cell has a list of slots, every slot as likely as any other, that
 //! name the lights found to reach it ([`crate::learn`]): a light that brings more has more of them. A fixed share of the

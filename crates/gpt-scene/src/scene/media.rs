@@ -278,23 +278,23 @@ mod tests {
         assert_eq!(number("mixed"), number("amber"));
     }
 
-    /// Lamps within a body, and surfaces that let light samples through, are looked for.
+    /// Emitters within a body, and surfaces that let light samples through, are looked for.
     #[test]
     fn media_are_dark_where_no_light_is_within() {
         let body = "[[medium]]\nname = 'milk'\nscattering = 2\n[[material]]\nname = 'milk'\ntype = 'glass'\ninterior = 'milk'\n\
                     [[material]]\nname = 'lamp'\ntype = 'emissive'\nradiance = 1\n[[material]]\nname = 'gone'\ntype = 'pass'\n";
         let ball = "[[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'milk'\n";
-        let lamp = |x: f64| format!("[[shape]]\ntype = 'sphere'\ncenter = [{x:?}, 0, 0]\nradius = 0.1\nmaterial = 'lamp'\n");
+        let emitter = |x: f64| format!("[[shape]]\ntype = 'sphere'\ncenter = [{x:?}, 0, 0]\nradius = 0.1\nmaterial = 'lamp'\n");
         let point = "[[light]]\ntype = 'point'\nposition = [0.5, 0.5, 0.5]\nintensity = 1\n";
         let tube = "[[shape]]\ntype = 'cylinder'\nfrom = [0, 0, 0]\nto = [0, 1, 0]\nradius = 1\nmaterial = 'milk'\n";
-        let veil = "[[material]]\nname = 'veil'\ntype = 'blend'\nmaterials = ['milk', 'gone']\nweight = { type = 'constant', value = 0.5 }\n\
-                    [[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'veil'\n";
+        let translucent = "[[material]]\nname = 'translucent'\ntype = 'blend'\nmaterials = ['milk', 'gone']\nweight = { type = 'constant', value = 0.5 }\n\
+                    [[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'translucent'\n";
         let is_dark = |shapes: &str| media(&format!("{body}{shapes}")).1.fillings.iter().any(|filling| filling.is_dark);
-        assert!(is_dark(ball) && is_dark(&format!("{ball}{}", lamp(3.0))));
-        for lit in
-            [format!("{ball}{}", lamp(0.5)), format!("{ball}{point}"), tube.to_owned(), veil.to_owned(), format!("{ball}{tube}")]
+        assert!(is_dark(ball) && is_dark(&format!("{ball}{}", emitter(3.0))));
+        for bright in
+            [format!("{ball}{}", emitter(0.5)), format!("{ball}{point}"), tube.to_owned(), translucent.to_owned(), format!("{ball}{tube}")]
         {
-            assert!(!is_dark(&lit), "{lit}");
+            assert!(!is_dark(&bright), "{bright}");
         }
     }
 }

@@ -84,7 +84,7 @@ fn image(width: u32, height: u32) -> Arc<ImageData> {
         2 => Texels::Shorts { codes: vec![[1, 2, 3, 4]; count], space: ColorSpace::Linear },
         3 => Texels::Half(vec![[0x3800; 4]; count]),
         4 => Texels::FloatAlpha(vec![[0.1, 0.5, 0.2, 0.7]; count]),
-        // A lamp that shows it is drawn by what it shows.
+        // An area light that emits it is sampled by it.
         6 => Texels::Float((0..count).map(|index| [if index == 7 { 50.0 } else { 0.1 }; 3]).collect()),
         _ => Texels::Float((0..count).map(|index| [0.1 * index as f32, 0.5, 0.2]).collect()),
     };

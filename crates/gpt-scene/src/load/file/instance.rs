@@ -161,8 +161,8 @@ impl Resolver<'_> {
     pub(super) fn instances(&mut self, written: &[Located<InstanceEntry>], names: &HashMap<String, usize>, groups: &Groups) {
         let textured = self.scene.materials_that(Material::uses_texture);
         let emits = self.scene.materials_that(|material| material.emission.is_some());
-        let lit_groups = self.lit_groups(&emits);
-        let are_lit = |part: &Instances| part.material.map_or(lit_groups[part.group], |material| emits[material]);
+        let emissive_groups = self.emissive_groups(&emits);
+        let are_emissive = |part: &Instances| part.material.map_or(emissive_groups[part.group], |material| emits[material]);
         // Emitting shapes are added to the scene as shapes, so that no instance emits.
         let none_emits = vec![false; emits.len()];
         let balls = self.scene.balls();
@@ -177,7 +177,7 @@ impl Resolver<'_> {
                 let (mut kept, mut copies) = (Vec::new(), Vec::new());
                 for part in all {
                     let check = self.scene.check_instances(&part, &textured, &none_emits, &balls);
-                    let lit = check.and_then(|()| if are_lit(&part) { self.lit_copies(&part).map(Some) } else { Ok(None) });
+                    let emissive = check.and_then(|()| if are_emissive(&part) { self.emissive_copies(&part).map(Some) } else { Ok(None) });
                     let of_held = |message: String| match part.label == instances.label {
                         true => message,
                         false => format!(
@@ -186,7 +186,7 @@ impl Resolver<'_> {
                             groups.name(instances.group)
                         ),
                     };
-                    match lit.map_err(|message| self.error(&entry.place, of_held(message)))? {
+                    match emissive.map_err(|message| self.error(&entry.place, of_held(message)))? {
                         Some(shapes) => copies.extend(shapes),
                         None => kept.push(part),
                     }

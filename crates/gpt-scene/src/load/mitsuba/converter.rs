@@ -42,7 +42,7 @@ pub struct Converter<'a> {
     /// The sensor, where what it does not see is still to be told.
     pub clip: Option<Rc<Plugin>>,
     /// Materials that give light, by their keys.
-    pub lamps: HashMap<String, String>,
+    pub emissive_materials: HashMap<String, String>,
     /// The materials of shapes without a BSDF: without light, with it, and of boundaries of media.
     pub default_materials: [Option<usize>; 3],
     pub textures: HashMap<(*const Plugin, bool, Texels, Option<usize>), Input>,

@@ -56,14 +56,14 @@ impl Converter<'_> {
         *common.emission = Some(place.at(shape.possible(light.colour(&place))?));
         // Surfaces with equal scattering and emission share one material.
         let key = format!("{entry:?}");
-        if let Some(known) = self.lamps.get(&key) {
+        if let Some(known) = self.emissive_materials.get(&key) {
             return Ok(known.clone());
         }
         let wanted = if shape.id.is_empty() { format!("{plain}, giving light") } else { shape.id.clone() };
         let name = self.scene.free_material_name(&wanted);
         *entry.common_mut().name = place.at(name.clone());
         self.scene.file.material.push(entry);
-        self.lamps.insert(key, name.clone());
+        self.emissive_materials.insert(key, name.clone());
         Ok(name)
     }
 

@@ -14,14 +14,14 @@ use crate::scene_writer::save_scene;
 use crate::spectrum::Spectrum;
 
 const VOLPATH: &str = "<integrator type=\"volpath\"/>";
-const LAMP: &str = "<emitter type=\"point\"><point name=\"position\" x=\"9\" y=\"9\" z=\"9\"/></emitter>";
+const POINT_LIGHT: &str = "<emitter type=\"point\"><point name=\"position\" x=\"9\" y=\"9\" z=\"9\"/></emitter>";
 const BODY: &str = "<bsdf type=\"null\"/>";
 
 /// A scene of these elements with a sensor that has these.
 fn document(integrator: &str, of_sensor: &str, more: &str) -> String {
     format!(
         "<scene version=\"3.0.0\">{integrator}<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>{of_sensor}<transform name=\"to_world\">\
-         <lookat origin=\"0,0,20\" target=\"0,0,0\" up=\"0,1,0\"/></transform></sensor>{LAMP}{more}</scene>"
+         <lookat origin=\"0,0,20\" target=\"0,0,0\" up=\"0,1,0\"/></transform></sensor>{POINT_LIGHT}{more}</scene>"
     )
 }
 
