@@ -16,7 +16,7 @@ use crate::reference::layer::LayerVisitor;
 use crate::reference::rounding::Rounding;
 use crate::reference::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::renderer::sink::{Sink, keep_between};
-use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_SWEEP, Tally};
+use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_ITERATION, Tally};
 use crate::renderer::{
     Batch, CAUTION, Change, Decision, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping,
 };
@@ -248,10 +248,10 @@ impl ReferenceRenderer {
     fn next_samples(&self, pixels: usize, batch: &BatchSamples<'_>, first: u32) -> Range<u32> {
         let rate = if self.timed_seconds > 0.0 { self.timed_samples / self.timed_seconds } else { 0.0 };
         let fitting = rate * PASS_DURATION.as_secs_f64() / pixels.max(1) as f64;
-        first..first + (fitting as u32).clamp(1, MOST_SAMPLES_PER_SWEEP).min(batch.range.end - first)
+        first..first + (fitting as u32).clamp(1, MOST_SAMPLES_PER_ITERATION).min(batch.range.end - first)
     }
 
-    /// Samples that a sweep over so many pixels can have to end within the time.
+    /// Samples that an iteration over so many pixels can have to end within the time.
     fn samples_within(&self, pixels: usize, time: Duration) -> u32 {
         (time.as_secs_f64() * self.timed_samples / self.timed_seconds.max(1e-9) / pixels.max(1) as f64) as u32
     }
@@ -267,21 +267,21 @@ impl ReferenceRenderer {
         let largest = group.bands.iter().map(|band| band.pixels.len()).max().unwrap_or(0);
         let all = group.bands.iter().map(|band| band.pixels.len()).sum();
         while group.next < batch.range.end {
-            if group.sweep == 0 {
-                group.sweep = self.next_samples(largest, batch, group.next).len() as u32;
+            if group.iteration == 0 {
+                group.iteration = self.next_samples(largest, batch, group.next).len() as u32;
                 if let Some(time) = batch.stopping.time_left() {
                     let is_first = group.next == batch.range.start;
                     // Nothing is known of the speed of a render that goes on.
                     let fitting =
                         if is_first || self.timed_samples == 0.0 { 1 } else { self.samples_within(all, time.mul_f64(CAUTION)) };
                     if fitting == 0 {
-                        group.sweep = 0;
+                        group.iteration = 0;
                         return Ok(Some(Ending::OutOfTime));
                     }
-                    group.sweep = group.sweep.min(fitting);
+                    group.iteration = group.iteration.min(fitting);
                 }
             }
-            let ended = self.sweep(group, batch, progress, sink)?;
+            let ended = self.run_iteration(group, batch, progress, sink)?;
             if ended.is_some() {
                 return Ok(ended);
             }
@@ -289,15 +289,15 @@ impl ReferenceRenderer {
         Ok(None)
     }
 
-    /// Renders the rest of the sweep under way.
-    fn sweep(
+    /// Renders the rest of the iteration under way.
+    fn run_iteration(
         &mut self,
         group: &mut Group,
         batch: &BatchSamples<'_>,
         progress: &mut Progress<'_>,
         sink: &mut dyn Sink,
     ) -> Result<Option<Ending>, RenderError> {
-        let range = group.next..group.next + group.sweep;
+        let range = group.next..group.next + group.iteration;
         let is_first = range.start == batch.range.start;
         let mut before = 0;
         for index in 0..group.bands.len() {
@@ -324,7 +324,7 @@ impl ReferenceRenderer {
             group.reached = before as u32;
             let is_last_band = index + 1 == group.bands.len();
             if is_last_band {
-                (group.next, group.sweep, group.reached) = (range.end, 0, 0);
+                (group.next, group.iteration, group.reached) = (range.end, 0, 0);
             }
             if is_last_band && range.end == batch.range.end {
                 return Ok(None);
@@ -448,7 +448,7 @@ impl Renderer for ReferenceRenderer {
             let mut group = Group::new(first_row..end, &samples, resume);
             let ended = self.render_group(&mut group, &samples, &mut progress, sink)?;
             let bands = group.bands;
-            // Earlier parts of a picture cannot know that a later one ends in the middle of a sweep.
+            // Earlier parts of a picture cannot know that a later one ends in the middle of an iteration.
             // Pixels of a layer of surfaces count the samples that met something.
             let counts_hits = self.layer.is_some_and(KernelLayer::is_of_surfaces);
             let with_counts = ((end - first_row) as usize) < rows.len() || counts_hits || !are_even(&bands, &samples, width);

@@ -132,7 +132,8 @@ impl Lights {
             if exitances[material] == 0.0 {
                 continue;
             }
-            let of_part = world.emitter_part(index).and_then(|part| exitance_of_part(&maps, (material, two_sided[material]), &part));
+            let of_part =
+                world.emitter_part(index).and_then(|part| exitance_of_part(&maps, (material, two_sided[material]), &part));
             let power = world.primitive(index).area() * of_part.unwrap_or(exitances[material]);
             if power > 0.0 {
                 if let Some(unrolled) = world.primitive(index).element().unrolled() {

@@ -161,7 +161,7 @@ mod tests {
         assert_eq!(means, [1.0, 4.0]);
     }
 
-    /// A batch that ended in the middle of a sweep counts, pixel by pixel, as far as it got.
+    /// A batch that ended in the middle of an iteration counts, pixel by pixel, as far as it got.
     #[test]
     fn pixels_are_weighed_by_their_own_samples() {
         let mut picture = BatchSums::new([2, 1]);

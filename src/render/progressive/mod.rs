@@ -83,7 +83,7 @@ pub fn render_kept(
             resume: resume.as_ref(),
             ..Batch::of(&request)
         };
-        return render_sweeps(
+        return render_iterations(
             renderer,
             Watch { observer, batch: &batch, width: size[0], region: goal.region },
             checkpoint,
@@ -107,7 +107,7 @@ pub fn render_kept(
 
 /// Only time may end this render before its last sample, and the device's film has it all: the picture is,
 /// bit for bit, the one that no limit would have given, as far as it goes.
-fn render_sweeps(
+fn render_iterations(
     renderer: &mut dyn Renderer,
     watch: Watch<'_>,
     checkpoint: Option<&mut Checkpoint>,

@@ -158,7 +158,7 @@ mod tests {
     fn state() -> BatchState {
         let sums = vec![[2.0, 4.0, 6.0, 8.0]; 6];
         let film = FilmState::Double { sums, samples: vec![2; 6] };
-        BatchState { rows: 1..3, done: 0, sweep: 2, reached: 4, film: Arc::new(film), tally: Tally::default() }
+        BatchState { rows: 1..3, done: 0, iteration: 2, reached: 4, film: Arc::new(film), tally: Tally::default() }
     }
 
     #[test]

@@ -291,9 +291,13 @@ mod tests {
                     [[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'translucent'\n";
         let is_dark = |shapes: &str| media(&format!("{body}{shapes}")).1.fillings.iter().any(|filling| filling.is_dark);
         assert!(is_dark(ball) && is_dark(&format!("{ball}{}", emitter(3.0))));
-        for bright in
-            [format!("{ball}{}", emitter(0.5)), format!("{ball}{point}"), tube.to_owned(), translucent.to_owned(), format!("{ball}{tube}")]
-        {
+        for bright in [
+            format!("{ball}{}", emitter(0.5)),
+            format!("{ball}{point}"),
+            tube.to_owned(),
+            translucent.to_owned(),
+            format!("{ball}{tube}"),
+        ] {
             assert!(!is_dark(&bright), "{bright}");
         }
     }

@@ -138,7 +138,8 @@ fn a_models_file_is_named_and_its_materials_can_be_replaced() {
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.3\nusemtl wood\nf 1 2 3\nusemtl iron\nf 2 4 3\n";
     std::fs::write(folder.path().join("a.obj"), obj).unwrap();
     std::fs::write(folder.path().join("a.mtl"), "newmtl wood\nKd 0.5 0.3 0.1\nnewmtl iron\nKd 0.2 0.2 0.2\n").unwrap();
-    let text = format!("{HEAD}{MATERIALS}[[shape]]\ntype = \"mesh\"\nfile = \"a.obj\"\nmaterials = {{ iron = \"red\" }}\n{POINT_LIGHT}");
+    let text =
+        format!("{HEAD}{MATERIALS}[[shape]]\ntype = \"mesh\"\nfile = \"a.obj\"\nmaterials = {{ iron = \"red\" }}\n{POINT_LIGHT}");
     let original = load_toml_str(&text, "test.toml", folder.path()).unwrap();
     let names: Vec<&str> = original.materials.iter().map(|material| material.name.as_str()).collect();
     assert_eq!(names, ["red", "mirror", "wood"]);
@@ -153,7 +154,8 @@ fn a_models_file_is_named_and_its_materials_can_be_replaced() {
     assert_eq!(digest(&read), digest(&original));
 
     for (written, message) in [("irn = \"red\"", "no material named `irn`"), ("iron = \"rd\"", "no material named `rd`")] {
-        let text = format!("{HEAD}{MATERIALS}[[shape]]\ntype = \"mesh\"\nfile = \"a.obj\"\nmaterials = {{ {written} }}\n{POINT_LIGHT}");
+        let text =
+            format!("{HEAD}{MATERIALS}[[shape]]\ntype = \"mesh\"\nfile = \"a.obj\"\nmaterials = {{ {written} }}\n{POINT_LIGHT}");
         let error = load_toml_str(&text, "test.toml", folder.path()).unwrap_err().to_string();
         assert!(error.contains(message) && error.contains("shape[0]"), "{error}");
     }

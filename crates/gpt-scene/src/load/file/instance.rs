@@ -177,7 +177,8 @@ impl Resolver<'_> {
                 let (mut kept, mut copies) = (Vec::new(), Vec::new());
                 for part in all {
                     let check = self.scene.check_instances(&part, &textured, &none_emits, &balls);
-                    let emissive = check.and_then(|()| if are_emissive(&part) { self.emissive_copies(&part).map(Some) } else { Ok(None) });
+                    let emissive =
+                        check.and_then(|()| if are_emissive(&part) { self.emissive_copies(&part).map(Some) } else { Ok(None) });
                     let of_held = |message: String| match part.label == instances.label {
                         true => message,
                         false => format!(
