@@ -18,7 +18,7 @@ use function::Function;
 use image::EmissionImage;
 pub use unrolled::Unrolled;
 
-/// The mean of the squared luminance over the squared mean from which on points are drawn by luminance. Shapes that are lit more evenly are
+/// The mean of the squared luminance over the squared mean from which on points are drawn by luminance. Shapes that emit more evenly are
 /// drawn by solid angle, which counts for more where they are near.
 const LEAST_CONTRAST: f64 = 1.5;
 

@@ -71,7 +71,7 @@ fn means_are_those_of_what_is_looked_up() {
     }
 }
 
-/// A part that touches the one bright texel of a large picture, however large or small it is, is known to be lit, and parts add up to the whole.
+/// A part that touches the one bright texel of a large picture, however large or small it is, is known to emit, and parts add up to the whole.
 #[test]
 fn no_texel_is_overlooked() {
     let scene = textured_light(
@@ -93,14 +93,14 @@ fn no_texel_is_overlooked() {
     assert_eq!(EmissionMaps::default().luminance(0, &part([a, b, c])), None);
 }
 
-/// The density is high where it is bright, positive wherever anything shines, and 0 elsewhere; rectangles that are lit evenly have none.
+/// The density is high where it is bright, positive wherever anything shines, and 0 elsewhere; rectangles that emit evenly have none.
 #[test]
 fn rectangles_are_drawn_by_what_they_show() {
     let bright = |x: u32, y: u32| f32::from(u8::from((x, y) == (2, 1)));
     for (filter, wrap) in EACH {
         let scene = textured_light(image([8, 8], filter, wrap, bright), 0.0);
         let maps = EmissionMaps::new(&scene);
-        let warp = maps.warp(0, Unrolled::Evenly).expect("it is lit unevenly");
+        let warp = maps.warp(0, Unrolled::Evenly).expect("it emits unevenly");
         let at = |x: f64, y: f64| warp.density((x + 0.5) / 8.0, 1.0 - (y + 0.5) / 8.0);
         assert!(at(2.0, 1.0) > 15.0, "{filter:?}: {}", at(2.0, 1.0));
         for (x, y) in (0..64).flat_map(|x| (0..64).map(move |y| (f64::from(x) / 8.0 - 0.4, f64::from(y) / 8.0 - 0.4))) {
@@ -177,10 +177,10 @@ fn no_point_of_a_function_has_density_0() {
     };
     let scene = blend(8);
     let maps = EmissionMaps::new(&scene);
-    let warp = maps.warp(2, Unrolled::Evenly).expect("it is lit unevenly");
+    let warp = maps.warp(2, Unrolled::Evenly).expect("it emits unevenly");
     assert!(warp.density(2.5 / 8.0, 1.0 - 1.5 / 8.0) > 30.0);
     assert!(warp.densities.iter().all(|&density| density > 0.0));
-    let on_sphere = maps.warp(2, Unrolled::Sphere).expect("it is lit unevenly");
+    let on_sphere = maps.warp(2, Unrolled::Sphere).expect("it emits unevenly");
     assert!(on_sphere.density(2.5 / 8.0, 1.0 - 1.5 / 8.0) > 20.0 && on_sphere.densities.iter().all(|&density| density > 0.0));
     assert!(maps.map(0).is_none() && maps.map(1).is_none(), "what is the same everywhere is not looked at");
     let scene = blend(5000);

@@ -28,7 +28,7 @@ use crate::renderer::RenderError;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
 use crate::sampling::light_way::{LightWay, MANY_LIGHTS};
-use crate::sampling::{LightTree, LitPoint, Sampling};
+use crate::sampling::{LightTree, LightSampleContext, Sampling};
 use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, Shape};
 use crate::spectrum::Spectrum;
 
@@ -158,7 +158,7 @@ fn is_worth_learning(scene: &Scene) -> bool {
 /// A point of a surface at which light may be sampled.
 #[derive(Clone, Copy)]
 struct Shaded {
-    at: LitPoint,
+    at: LightSampleContext,
     /// Zero where the surface scatters to either side.
     normal: DVec3,
 }
@@ -179,7 +179,7 @@ fn learned(integrator: &Integrator, has_to_be_whole: bool) -> Option<Learned> {
         return None;
     }
     let shaded = shaded_points(integrator, wanted.min(affordable.max(FEWEST_AFFORDABLE)));
-    let points: Vec<LitPoint> = shaded.iter().map(|shaded| shaded.at).collect();
+    let points: Vec<LightSampleContext> = shaded.iter().map(|shaded| shaded.at).collect();
     let division = Division::new(&points);
     let of_cell = |(cell, members): (usize, &Vec<u32>)| {
         let step = members.len().div_ceil(TRIED_POINTS).max(1);
@@ -390,11 +390,11 @@ impl PathVisitor for Walker {
 
     fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, _throughput: Spectrum) {
         let normal = surface.point.normal_towards(wo);
-        self.at = Some(Shaded { at: LitPoint::new(surface.point.leave_towards(wo), normal), normal });
+        self.at = Some(Shaded { at: LightSampleContext::new(surface.point.leave_towards(wo), normal), normal });
     }
 
     fn medium(&mut self, _depth: u32, position: DVec3, wo: DVec3, _throughput: Spectrum) {
-        self.at = Some(Shaded { at: LitPoint::new(position, wo), normal: DVec3::ZERO });
+        self.at = Some(Shaded { at: LightSampleContext::new(position, wo), normal: DVec3::ZERO });
     }
 
     fn scattered(&mut self, sample: &BsdfSample) {

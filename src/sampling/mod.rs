@@ -34,7 +34,7 @@ pub use dimension::{CameraDimension, Dimension, MediumDimension, VertexDimension
 pub use environment::MapDistribution;
 pub use guide::Guide;
 pub use hierarchical_warp::{HierarchicalWarp, WarpSample};
-pub use light_cells::{LightCells, LitPoint};
+pub use light_cells::{LightCells, LightSampleContext};
 pub use light_sampler::{LightGroup, LightSampler};
 pub use light_tree::LightTree;
 pub use sampler::PathSampler;

@@ -24,7 +24,7 @@ use super::emission::{emitted, mean_exitance};
 use super::intersect::{Outline, Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use super::work;
 use crate::emission_map::{EmissionMaps, EmitterPart, Unrolled};
-use crate::sampling::light_cells::{LightCellChoice, LightCells, LitPoint};
+use crate::sampling::light_cells::{LightCellChoice, LightCells, LightSampleContext};
 use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
 use crate::sampling::light_tree::Emitter;
 use crate::sampling::light_way::LightWay;
@@ -196,7 +196,7 @@ impl Lights {
     }
 
     /// The light that 32 random bits choose at a point, and the probability of that.
-    fn choose(&self, from: LitPoint, bits: u32) -> (usize, f64) {
+    fn choose(&self, from: LightSampleContext, bits: u32) -> (usize, f64) {
         match (self.way, &self.cells, &self.tree) {
             (LightWay::Cells, Some(cells), _) => cells.choose(from, bits),
             (LightWay::Tree, _, Some(tree)) => tree.choose(from.point, bits),
@@ -208,7 +208,7 @@ impl Lights {
     }
 
     /// By how much drawing a direction to the light that these bits choose magnifies rounding errors of its random numbers.
-    pub fn magnifies(&self, (world, time): (&World, &PathTime), from: LitPoint, choice: u32) -> f64 {
+    pub fn magnifies(&self, (world, time): (&World, &PathTime), from: LightSampleContext, choice: u32) -> f64 {
         match self.lights[self.choose(from, choice).0] {
             SampledLight::Area(index) => {
                 let pose = world.pose(index, time);
@@ -219,7 +219,7 @@ impl Lights {
     }
 
     /// The probability with which a light is chosen at a point.
-    fn probability(&self, from: LitPoint, light: usize) -> f64 {
+    fn probability(&self, from: LightSampleContext, light: usize) -> f64 {
         match (self.way, &self.cells, &self.tree) {
             (LightWay::Cells, Some(cells), _) => cells.probability(from, light),
             (LightWay::Tree, _, Some(tree)) if light < self.local_count => tree.probability(from.point, light),
@@ -303,7 +303,7 @@ impl Lights {
         &self,
         scene: &Scene,
         moment: (&World, &PathTime),
-        from: impl Into<LitPoint>,
+        from: impl Into<LightSampleContext>,
         choice: u32,
         numbers: [u32; 2],
     ) -> Option<LightSample> {
@@ -316,7 +316,7 @@ impl Lights {
         &self,
         scene: &Scene,
         (world, time): (&World, &PathTime),
-        from: LitPoint,
+        from: LightSampleContext,
         (light, probability): (usize, f64),
         [u, v]: [u32; 2],
     ) -> Option<LightSample> {
@@ -374,7 +374,7 @@ impl Lights {
 
     /// The place of the light that is chosen at a point, by bits as [`Lights::sample`] has them: a point of its surface, the centre of a sphere, or
     /// its position. None of lights at infinity.
-    pub fn place(&self, (world, time): (&World, &PathTime), from: LitPoint, choice: u32, [u, v]: [u32; 2]) -> Option<DVec3> {
+    pub fn place(&self, (world, time): (&World, &PathTime), from: LightSampleContext, choice: u32, [u, v]: [u32; 2]) -> Option<DVec3> {
         let (light, probability) = self.choose(from, choice);
         match &self.lights[light] {
             _ if probability == 0.0 => None,
@@ -388,13 +388,13 @@ impl Lights {
 
     /// Density, per steradian, with which [`Lights::sample`] draws the direction `wi` for the environment, by whichever way; 0 where it
     /// cannot.
-    pub fn environment_pdf(&self, world: &World, from: impl Into<LitPoint>, wi: DVec3) -> f64 {
+    pub fn environment_pdf(&self, world: &World, from: impl Into<LightSampleContext>, wi: DVec3) -> f64 {
         let from = from.into();
         let itself = self.environment_light.map_or(0.0, |light| self.probability(from, light) * self.outside.pdf(wi));
         itself + self.portal_pdf(world, from, wi)
     }
 
-    fn portal_pdf(&self, world: &World, from: LitPoint, wi: DVec3) -> f64 {
+    fn portal_pdf(&self, world: &World, from: LightSampleContext, wi: DVec3) -> f64 {
         let portals = self.first_portal..self.lights.len();
         if portals.is_empty() {
             return 0.0;
@@ -406,7 +406,7 @@ impl Lights {
     }
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.
-    pub fn pdf(&self, (world, time): (&World, &PathTime), from: impl Into<LitPoint>, surface: &Surface) -> f64 {
+    pub fn pdf(&self, (world, time): (&World, &PathTime), from: impl Into<LightSampleContext>, surface: &Surface) -> f64 {
         let from = from.into();
         let reference = from.point;
         let SurfaceId::Primitive(index) = surface.id else { return 0.0 };

@@ -9,14 +9,14 @@
 
 mod division;
 mod list;
-mod lit_point;
+mod light_sample_context;
 pub mod table;
 
 use std::sync::Arc;
 
 pub use division::Division;
 pub use list::Reaching;
-pub use lit_point::LitPoint;
+pub use light_sample_context::LightSampleContext;
 pub use table::{LightCell, LightCells};
 
 use super::alias::AliasTable;
@@ -45,7 +45,7 @@ impl LightCellChoice {
     }
 
     /// The light that 32 random bits choose at a point, and the probability of that.
-    pub fn choose(&self, from: LitPoint, bits: u32) -> (usize, f64) {
+    pub fn choose(&self, from: LightSampleContext, bits: u32) -> (usize, f64) {
         let cell = self.cells.cell(from);
         let light = match cell.map(|cell| cell.choose(bits)) {
             Some(Ok(light)) => light as usize,
@@ -61,7 +61,7 @@ impl LightCellChoice {
     }
 
     /// The probability with which [`LightCellChoice::choose`] chooses a light at a point.
-    pub fn probability(&self, from: LitPoint, light: usize) -> f64 {
+    pub fn probability(&self, from: LightSampleContext, light: usize) -> f64 {
         self.probability_in(self.cells.cell(from), light)
     }
 }

@@ -44,7 +44,7 @@ pub struct Filling {
     /// Grids by which the numbers above are multiplied from place to place.
     pub grids: Option<Arc<MediumGrids>>,
     /// Light samples reach it: the camera is within it, or a null surface bounds it.
-    pub is_lit: bool,
+    pub is_light_sampled: bool,
     /// No light is within its bodies, and their surfaces bend all light that goes in or out: no light sample within them finds one.
     pub is_dark: bool,
 }
@@ -53,13 +53,13 @@ impl Filling {
     /// Absorbs and does nothing else.
     fn absorbing(extinction: Spectrum) -> Self {
         let (scattering, emission) = (Spectrum::BLACK, Spectrum::BLACK);
-        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_lit: false, is_dark: false }
+        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_light_sampled: false, is_dark: false }
     }
 
     fn of(medium: &Medium) -> Self {
         let Medium { scattering, emission, .. } = *medium;
         let (phase, grids) = (medium.phase.clone(), medium.grids.clone());
-        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_lit: false, is_dark: false }
+        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_light_sampled: false, is_dark: false }
     }
 
     /// Attenuation per unit length and density by which places are drawn where light passes and is not scattered.
@@ -125,10 +125,10 @@ impl Media {
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
         media.is_open =
             scene.materials.iter().zip(lets_through).map(|(of, lets_through)| of.interior.is_some() && lets_through).collect();
-        let lit = media.behind.iter().zip(&media.is_open).filter_map(|(&number, &is_open)| is_open.then_some(number));
-        for number in lit.chain([media.around_camera]) {
+        let open = media.behind.iter().zip(&media.is_open).filter_map(|(&number, &is_open)| is_open.then_some(number));
+        for number in open.chain([media.around_camera]) {
             if number != 0 {
-                media.fillings[number - 1].is_lit = true;
+                media.fillings[number - 1].is_light_sampled = true;
             }
         }
         let dark = dark_media(scene, &media);
@@ -177,7 +177,7 @@ impl Media {
 /// By medium: no light is within its bodies, and no light sample gets through their surfaces. Bodies that are not closed for sure, that move or stand
 /// in groups are not looked at.
 fn dark_media(scene: &Scene, media: &Media) -> Vec<bool> {
-    let mut is_dark: Vec<bool> = media.fillings.iter().map(|filling| filling.scatters() && !filling.is_lit).collect();
+    let mut is_dark: Vec<bool> = media.fillings.iter().map(|filling| filling.scatters() && !filling.is_light_sampled).collect();
     if !is_dark.contains(&true) {
         return is_dark;
     }
