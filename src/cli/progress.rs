@@ -14,7 +14,7 @@ use super::{interrupt, terminal};
 
 /// Time between two plain lines.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
-/// Preparations are told of in a plain line if they take longer.
+/// Preparations are reported in a plain line if they take longer.
 const LONG_PREPARATION: Duration = Duration::from_secs(3);
 /// The name of the phase before the first samples; the driver's compiler takes most of it.
 const PREPARING: &str = "preparing the scene and compiling kernels";
@@ -53,7 +53,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Samples per second since they were first told of; None at that time.
+    /// Samples per second since they were first reported; None at that time.
     fn rate(&mut self, done: u64) -> Option<f64> {
         let (since, before) = *self.first.get_or_insert_with(|| (Instant::now(), done));
         let seconds = since.elapsed().as_secs_f64();

@@ -10,7 +10,7 @@ use crate::output::Image;
 
 /// Pixels along a tile's side.
 const TILE: u32 = 16;
-/// A change of a tile's energy, as a share, that is told even where noise may be all of it: of a small bright thing few samples know much, so the noise
+/// A change of a tile's energy, as a share, that is reported even where noise may be all of it: of a small bright thing few samples know much, so the noise
 /// that is expected is as large as what the thing is worth, and would explain that it is gone.
 const NOTABLE: f64 = 0.1;
 
@@ -117,9 +117,9 @@ mod tests {
         (Raw { picture: of(noisy), albedo: None, normal: None, variances, placed: None }, of(smooth))
     }
 
-    /// An emitter of which each of its pixels has a sample or two: noise would explain that it is gone, and that it is gone is told.
+    /// An emitter of which each of its pixels has a sample or two: noise would explain that it is gone, and that it is gone is reported.
     #[test]
-    fn a_small_bright_thing_that_is_gone_is_told_of() {
+    fn a_small_bright_thing_that_is_gone_is_reported() {
         let (mut raw, denoised) = pictures(1.0, true);
         let emitter = [20 * SIDE as usize + 20, 20 * SIDE as usize + 21];
         for pixel in emitter {
@@ -130,7 +130,7 @@ mod tests {
         let bias = Bias::of(&raw, &denoised).expect("one size");
         assert_eq!((bias.biased_tiles, bias.undecided_tiles), (0, 1), "{bias}");
         assert!(bias.largest_undecided < -0.8 && bias.to_string().contains("in 1 the change is above 10 % (-8"), "{bias}");
-        // The control: without the emitter, nothing is told.
+        // The control: without the emitter, nothing is reported.
         let (raw, denoised) = pictures(1.0, true);
         assert!(!Bias::of(&raw, &denoised).expect("one size").to_string().contains("above"));
     }

@@ -28,7 +28,7 @@ use crate::renderer::RenderError;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
 use crate::sampling::light_way::{LightWay, MANY_LIGHTS};
-use crate::sampling::{LightTree, LightSampleContext, Sampling};
+use crate::sampling::{LightSampleContext, LightTree, Sampling};
 use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, Shape};
 use crate::spectrum::Spectrum;
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::super::extent::pixel_count;
 use super::super::paths::pixel_of;
 use super::sum::{Rays, Sum};
-use super::unguided::{Tale, UnguidedRecord};
+use super::unguided::{UnguidedEstimate, UnguidedRecord};
 use super::watched::{Record, Watched};
 use crate::compare::metrics::relative_weight;
 use crate::reference::integrator::Integrator;
@@ -54,17 +54,17 @@ impl Found {
         Self::recorded::<()>(integrator, pixels).0
     }
 
-    /// Renders so many pixels by guided paths, with what they tell about unguided ones.
-    pub fn unguided(integrator: &Integrator, pixels: u32) -> (Self, Vec<Tale>) {
+    /// Renders so many pixels by guided paths, with their estimates of unguided ones.
+    pub fn unguided(integrator: &Integrator, pixels: u32) -> (Self, Vec<UnguidedEstimate>) {
         Self::recorded::<UnguidedRecord>(integrator, pixels)
     }
 
-    fn recorded<R: Record>(integrator: &Integrator, pixels: u32) -> (Self, Vec<R::Told>) {
+    fn recorded<R: Record>(integrator: &Integrator, pixels: u32) -> (Self, Vec<R::Statistics>) {
         let pictures = pictures(integrator, PICTURES);
         let of_pixel = |number| work::of(|| TriedPixel::of::<R>(integrator, &pictures, number));
         let (tried, works): (Vec<_>, Vec<u64>) = (0..pixels).into_par_iter().map(of_pixel).unzip();
-        let (pixels, told) = tried.into_iter().unzip();
-        (Self { pixels, cost: 0.0, work: works.into_iter().sum() }, told)
+        let (pixels, statistics) = tried.into_iter().unzip();
+        (Self { pixels, cost: 0.0, work: works.into_iter().sum() }, statistics)
     }
 
     /// Paths that each way traces for so many pixels.
@@ -131,10 +131,10 @@ impl Found {
 
 /// The error of guided paths, and that of unguided ones. Samples depend on each other by their random
 /// numbers, which makes the error less than the variance of a sample says, by the same share either way.
-pub fn errors_of_guiding(found: &Found, tales: &[Tale], in_view: &InView) -> [f64; 2] {
+pub fn errors_of_guiding(found: &Found, estimates: &[UnguidedEstimate], in_view: &InView) -> [f64; 2] {
     let mut variances = [0.0; 2];
-    for ((pixel, weight), tale) in found.weighed().zip(tales) {
-        for (variance, moment) in variances.iter_mut().zip([tale.guided, tale.unguided]) {
+    for ((pixel, weight), estimate) in found.weighed().zip(estimates) {
+        for (variance, moment) in variances.iter_mut().zip([estimate.guided, estimate.unguided]) {
             *variance += ((moment - pixel.mean * pixel.mean) * weight).sum();
         }
     }
@@ -238,11 +238,11 @@ fn pictures(integrator: &Integrator, count: u32) -> Vec<Replication> {
 
 impl Replication {
     /// Renders a pixel.
-    fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> Shown<R::Told> {
+    fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> Shown<R::Statistics> {
         let size = integrator.scene().film.size;
         let [x, y] = pixel_of(number, size);
         let pixel = y.wrapping_mul(size[0]).wrapping_add(x);
-        let mut shown: Shown<R::Told> = Shown::default();
+        let mut shown: Shown<R::Statistics> = Shown::default();
         for point in &self.points {
             let mut path = Watched::<R>::new(&integrator.scene().render);
             let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut path);
@@ -250,7 +250,7 @@ impl Replication {
             if found.is_finite() {
                 shown.in_view += path.in_view / f64::from(SAMPLES);
                 shown.beyond += (found - path.in_view) / f64::from(SAMPLES);
-                shown.told = shown.told.and(path.record.told());
+                shown.statistics = shown.statistics.and(path.record.statistics());
             }
             shown.rays = shown.rays.and(path.rays);
         }
@@ -265,7 +265,7 @@ struct Shown<T> {
     beyond: Spectrum,
     rays: Rays,
     /// By all samples together.
-    told: T,
+    statistics: T,
 }
 
 /// The mean of some values, and the variance of one of them.
@@ -285,14 +285,14 @@ struct TriedPixel {
 }
 
 impl TriedPixel {
-    /// With what a sample of it tells of other ways.
-    fn of<R: Record>(integrator: &Integrator, pictures: &[Replication], number: u32) -> (Self, R::Told) {
-        let shown: Vec<Shown<R::Told>> = pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
+    /// With the statistics of a sample of it about other ways.
+    fn of<R: Record>(integrator: &Integrator, pictures: &[Replication], number: u32) -> (Self, R::Statistics) {
+        let shown: Vec<Shown<R::Statistics>> = pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
         let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<Spectrum>>());
         let in_view = shown.iter().map(|shown| shown.in_view).sum::<Spectrum>() / f64::from(PICTURES);
-        let told = shown.iter().fold(R::Told::default(), |sum, shown| sum.and(shown.told));
+        let statistics = shown.iter().fold(R::Statistics::default(), |sum, shown| sum.and(shown.statistics));
         let rays = shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays));
-        (Self { in_view, mean, variance, rays }, told.times(1.0 / f64::from(PICTURES * SAMPLES)))
+        (Self { in_view, mean, variance, rays }, statistics.times(1.0 / f64::from(PICTURES * SAMPLES)))
     }
 }
 

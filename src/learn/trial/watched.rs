@@ -10,22 +10,22 @@ use crate::reference::trace::{LightConnection, PathVisitor};
 use crate::scene::RenderSettings;
 use crate::spectrum::Spectrum;
 
-/// A record of a path that tells how other ways would trace it. Light in view is no part of that: no other
+/// A record of a path, with statistics of how other ways would trace it. Light in view is no part of that: no other
 /// way changes it.
 pub trait Record {
-    type Told: Sum;
+    type Statistics: Sum;
     /// The record wants [`PathVisitor::COMPARES`].
     const COMPARES: bool = false;
 
     fn new(settings: &RenderSettings) -> Self;
     /// The result at the path's end.
-    fn told(&self) -> Self::Told;
+    fn statistics(&self) -> Self::Statistics;
 
     /// A ray of the path, or a shadow ray, was traced.
     fn traced(&mut self, _rays: Rays) {}
     /// The path met a surface.
     fn met(&mut self, _depth: u32, _throughput: Spectrum) {}
-    /// The next direction is told as by [`PathVisitor::unguided`].
+    /// The next direction is given as by [`PathVisitor::unguided`].
     fn unguided(&mut self, _times: f64) {}
     /// Light was sampled.
     fn light(&mut self, _connection: &LightConnection) {}
@@ -39,11 +39,11 @@ pub trait Record {
 
 /// Nothing is asked.
 impl Record for () {
-    type Told = ();
+    type Statistics = ();
 
     fn new(_: &RenderSettings) -> Self {}
 
-    fn told(&self) {}
+    fn statistics(&self) {}
 }
 
 /// A path that is followed.

@@ -121,7 +121,12 @@ impl Integrator {
     /// Light that one of the lights brings to a point of a surface when the shutter opens: an estimate, by two
     /// random numbers, of the integral of luminance and cosine, without what stands in between and with it.
     /// Without a normal the cosine counts as 1.
-    pub fn light_reaching(&self, (from, normal): (LightSampleContext, DVec3), chosen: (usize, f64), numbers: [u32; 2]) -> [f64; 2] {
+    pub fn light_reaching(
+        &self,
+        (from, normal): (LightSampleContext, DVec3),
+        chosen: (usize, f64),
+        numbers: [u32; 2],
+    ) -> [f64; 2] {
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
         let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), from, chosen, numbers) else {
             return [0.0; 2];

@@ -374,7 +374,13 @@ impl Lights {
 
     /// The place of the light that is chosen at a point, by bits as [`Lights::sample`] has them: a point of its surface, the centre of a sphere, or
     /// its position. None of lights at infinity.
-    pub fn place(&self, (world, time): (&World, &PathTime), from: LightSampleContext, choice: u32, [u, v]: [u32; 2]) -> Option<DVec3> {
+    pub fn place(
+        &self,
+        (world, time): (&World, &PathTime),
+        from: LightSampleContext,
+        choice: u32,
+        [u, v]: [u32; 2],
+    ) -> Option<DVec3> {
         let (light, probability) = self.choose(from, choice);
         match &self.lights[light] {
             _ if probability == 0.0 => None,

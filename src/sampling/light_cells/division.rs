@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::list::{Reaching, slots};
 use super::light_sample_context::LightSampleContext;
+use super::list::{Reaching, slots};
 use super::table::LightCells;
 use crate::sampling::cell_grid::{CellGrid, FACINGS, Region};
 

@@ -8,15 +8,15 @@
 //! light only where a point lies on the border of two cells. `shaders/shading/light/choice/cells.wgsl` is the device's half.
 
 mod division;
-mod list;
 mod light_sample_context;
+mod list;
 pub mod table;
 
 use std::sync::Arc;
 
 pub use division::Division;
-pub use list::Reaching;
 pub use light_sample_context::LightSampleContext;
+pub use list::Reaching;
 pub use table::{LightCell, LightCells};
 
 use super::alias::AliasTable;

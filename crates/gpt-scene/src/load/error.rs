@@ -7,7 +7,7 @@ use std::path::Path;
 use super::excerpt::Excerpt;
 use super::printable::{printable, short};
 
-/// Most mistakes of a file that are told at once.
+/// Most mistakes of a file that are reported at once.
 pub(crate) const MOST_ERRORS: usize = 20;
 
 /// One mistake in a scene file or in a file it names. Displays as `file:line:column: key: message`.

@@ -36,7 +36,7 @@ pub struct CachedImage {
     pub integer_bits: Option<u16>,
     /// Repairs of the picture, until they are reported.
     pub change: Option<String>,
-    /// Properties that its header states and nothing uses, until they were told.
+    /// Properties that its header states and nothing uses, until they were reported.
     pub notes: Vec<String>,
     pub hints: Hints,
     /// Other programs see the same in the file.
@@ -128,7 +128,7 @@ impl<'a> Resolver<'a> {
         Ok(self.scene)
     }
 
-    /// The value, or a note of what is wrong with it. More mistakes than are told are not noted.
+    /// The value, or a note of what is wrong with it. More mistakes than are reported are not noted.
     pub(super) fn note<T>(&mut self, result: Result<T, SceneError>) -> Option<T> {
         let is_full = self.has_enough_errors();
         result
@@ -181,7 +181,7 @@ impl<'a> Resolver<'a> {
         Ok(())
     }
 
-    /// An error about what is stated at `place`; without its place where it will not be told, since to find that takes as long as the file is.
+    /// An error about what is stated at `place`; without its place where it will not be reported, since to find that takes as long as the file is.
     pub(super) fn error(&self, place: &Place, message: impl Into<String>) -> SceneError {
         if self.has_enough_errors() {
             return SceneError::in_file(self.document.name, message);

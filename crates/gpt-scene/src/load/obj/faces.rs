@@ -246,7 +246,7 @@ impl<'a> Faces<'a> {
         u32::try_from(from_start).ok().filter(|&place| (place as usize) < count)
     }
 
-    /// The index, unless nothing can be read there; that is told once.
+    /// The index, unless nothing can be read there; that is reported once.
     fn readable(&mut self, kind: Kind, index: Option<u32>) -> Option<u32> {
         let index = index?;
         let is_read = match kind {

@@ -1,7 +1,7 @@
 //! PLY files (Turk 1994): text or binary in both byte orders, packed by gzip or not.
 //!
 //! Vertices have positions, normals and texture coordinates; faces are triangles and polygons, or strips of triangles as in the Stanford models.
-//! Everything else is read over and named in a warning. What a file says wrongly is mended or left out, counted and told ([`Mends`]).
+//! Everything else is read over and named in a warning. What a file says wrongly is mended or left out, counted and reported ([`Mends`]).
 
 mod data;
 mod elements;
@@ -80,7 +80,7 @@ struct Model {
     /// Corners of all faces one after the other, and where each face ends.
     corners: Vec<u32>,
     ends: Vec<usize>,
-    /// Faces of which it is told already that they are left out.
+    /// Faces of which it is reported already that they are left out.
     spoiled: HashSet<usize>,
     /// Material number of each face, where the file has them.
     groups: Option<Vec<u32>>,

@@ -36,7 +36,7 @@ pub struct Crossing<'v> {
     /// The ray in index space.
     origin: DVec3,
     direction: DVec3,
-    /// Distance up to which segments were told, and the one at which they end.
+    /// Distance up to which segments were reported, and the one at which they end.
     at: f64,
     end: f64,
     /// Distances at which the ray is in the grid's box; equal ones: it is not.

@@ -216,7 +216,7 @@ impl Resolver<'_> {
         Ok(Some(if tint == Spectrum::WHITE { ColorInput::Texture(texture) } else { ColorInput::ScaledTexture(texture, tint) }))
     }
 
-    /// The picture of a map as a texture. None where it cannot be read, which is told.
+    /// The picture of a map as a texture. None where it cannot be read, which is reported.
     pub(super) fn mtl_picture(
         &mut self,
         written: &MtlMaterial,
