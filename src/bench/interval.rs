@@ -195,20 +195,23 @@ mod tests {
     #[test]
     fn intervals_hold_the_truth_as_often_as_they_say() {
         let trials = 2000;
-        let mut held = [0.0, 0.0];
+        let mut covered = [0.0, 0.0];
         let mut expected = 0.0;
         for seed in 0..trials {
             let mut random = SplitMix64::new(seed << 20);
             let normal: Vec<f64> = (0..9).map(|_| 5.0 + random.normal()).collect();
             let skewed: Vec<f64> = (0..9).map(|_| random.normal().exp()).collect();
             let median = Interval::of_median(&skewed);
-            held[0] += f64::from(u8::from(Interval::of_mean(&normal).contains(5.0)));
-            held[1] += f64::from(u8::from(median.contains(1.0)));
+            covered[0] += f64::from(u8::from(Interval::of_mean(&normal).contains(5.0)));
+            covered[1] += f64::from(u8::from(median.contains(1.0)));
             expected = median.confidence;
         }
         let trials = trials as f64;
-        for (held, expected) in [(held[0], CONFIDENCE), (held[1], expected)] {
-            assert!((held / trials - expected).abs() < 4.0 * (expected * (1.0 - expected) / trials).sqrt(), "{held} of {trials}");
+        for (covered, expected) in [(covered[0], CONFIDENCE), (covered[1], expected)] {
+            assert!(
+                (covered / trials - expected).abs() < 4.0 * (expected * (1.0 - expected) / trials).sqrt(),
+                "{covered} of {trials}"
+            );
         }
     }
 }

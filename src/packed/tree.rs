@@ -43,7 +43,7 @@ const PARAMETERS: BvhBuildParams = BvhBuildParams::medium_build();
 /// Trees of an earlier frame are `kept` for the next one, which saves time and changes nothing.
 ///
 /// # Errors
-/// [`PackError`] for more primitives or planes than can be held.
+/// [`PackError`] for more primitives or planes than a hierarchy can hold.
 pub fn build(world: &WorldGeometry, traversal: Traversal, kept: &mut KeptTrees) -> Result<(Hierarchy, Vec<Slot>), PackError> {
     let primitives = &world.primitives;
     let belongs = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle || primitive.moves();
@@ -57,9 +57,9 @@ pub fn build(world: &WorldGeometry, traversal: Traversal, kept: &mut KeptTrees) 
         return Err(PackError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });
     }
     let in_groups: usize = world.groups.iter().map(|group| group.primitives.len()).sum();
-    let held = inside.len() + world.instances.len() + in_groups;
-    if held > MAX_PRIMITIVES {
-        return Err(PackError::TooManyPrimitives { found: held, limit: MAX_PRIMITIVES });
+    let in_hierarchy = inside.len() + world.instances.len() + in_groups;
+    if in_hierarchy > MAX_PRIMITIVES {
+        return Err(PackError::TooManyPrimitives { found: in_hierarchy, limit: MAX_PRIMITIVES });
     }
     let slot = |&index: &usize| Slot::Primitive(index as u32);
     let (hierarchy, mut order) = match traversal {

@@ -46,7 +46,7 @@ pub const DEFAULT_SPP: u32 = 16;
 pub struct Verdict {
     /// The scene's name.
     pub scene: String,
-    /// The name of the device that was held against the reference.
+    /// The name of the device that was compared with the reference.
     pub device: String,
     /// Columns of the pictures.
     pub width: u32,

@@ -35,20 +35,20 @@ fn schedule(seed: u32) -> SampleSchedule {
 #[test]
 fn a_known_variance_is_reported() {
     let (measurements, levels) = (40, 5);
-    let mut held = [0.0, 0.0];
+    let mut covered = [0.0, 0.0];
     for seed in 0..measurements {
         let setting = Synthetic { sigma: 0.2, ..Synthetic::default() };
         let (observations, reference) = measure(vec![setting], Some(256), &schedule(seed));
         for level in curve(&observations[0], &reference, &schedule(seed)).levels {
             let truth = 0.04 / f64::from(level.spp);
-            held[0] += f64::from(u8::from(level.mse.contains(truth)));
-            held[1] += f64::from(u8::from(level.mse.contains(1.1 * truth)));
+            covered[0] += f64::from(u8::from(level.mse.contains(truth)));
+            covered[1] += f64::from(u8::from(level.mse.contains(1.1 * truth)));
         }
     }
     // The reference's parts have the same seeds each time, so its small error is shared: a loose binomial bound, 4.5 deviations.
-    let share = held[0] / f64::from(measurements * levels);
+    let share = covered[0] / f64::from(measurements * levels);
     assert!((share - 0.95).abs() < 4.5 * (0.95 * 0.05 / 200.0_f64).sqrt(), "{share} of the intervals hold the truth");
-    assert!(held[1] / 200.0 < 0.2, "{} of the intervals hold 10 % too much", held[1]);
+    assert!(covered[1] / 200.0 < 0.2, "{} of the intervals hold 10 % too much", covered[1]);
 }
 
 #[test]

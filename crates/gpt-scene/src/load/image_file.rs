@@ -29,7 +29,7 @@ const LARGE: u64 = 1 << 24;
 /// Stands for texels that are infinite, which most of them became by overflow: the largest half-precision number.
 const OVERFLOWN: f32 = 65_504.0;
 
-/// The pictures of a scene. All together have one budget of memory, and what headers say is held against it before anything is decoded.
+/// The pictures of a scene. All together have one budget of memory, and what headers say is compared with it before anything is decoded.
 #[derive(Debug)]
 pub struct Pictures {
     files: Files,
@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_share_a_budget_and_headers_are_held_against_it() {
+    fn pictures_share_a_budget_and_headers_are_compared_with_it() {
         let folder = tempfile::tempdir().unwrap();
         let paths = ["a.png", "b.exr", "c.png"].map(|name| folder.path().join(name));
         image::RgbImage::new(100, 100).save(&paths[0]).unwrap();

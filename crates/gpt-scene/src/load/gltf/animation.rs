@@ -291,12 +291,12 @@ fn keyframes(
     if !is_step {
         // Jumps among what moves evenly: the old value stays up to just before the next.
         for track in tracks.values_mut().filter(|track| track.is_step) {
-            let held = track.keys.windows(2).flat_map(|pair| {
+            let steps = track.keys.windows(2).flat_map(|pair| {
                 let just_before = pair[1].0 - (1e-3 * (pair[1].0 - pair[0].0)).min(1e-4);
                 [pair[0], (just_before, pair[0].1)]
             });
             let last = track.keys.last().copied();
-            track.keys = held.chain(last).filter(|(time, _)| time.is_finite()).collect();
+            track.keys = steps.chain(last).filter(|(time, _)| time.is_finite()).collect();
         }
     }
     let first = tracks.values().map(|track| track.keys[0].0).fold(f64::INFINITY, f64::min);

@@ -271,16 +271,16 @@ fn groups_hold_media() {
     let holds = |of_sensor: &str| {
         let scene = read(&document(VOLPATH, of_sensor, &format!("{FOG}{group}{instances}")));
         assert_eq!((scene.groups.len(), scene.shapes.len()), (1, 0));
-        let held = |shape: usize| {
+        let interior = |shape: usize| {
             let interior = scene.materials[scene.groups[0].shapes[shape].material].interior;
             interior.map(|id| scene.media[id].name.clone())
         };
-        ([held(0), held(1)].map(Option::unwrap_or_default), report(&scene))
+        ([interior(0), interior(1)].map(Option::unwrap_or_default), report(&scene))
     };
     assert_eq!(holds(IN_FOG), (["fog", "milk"].map(str::to_owned), String::new()));
     // The control: without fog around the sensor it is not around the group.
-    let (held, report) = holds("");
-    assert_eq!(held, ["", "milk"].map(str::to_owned));
+    let (interiors, report) = holds("");
+    assert_eq!(interiors, ["", "milk"].map(str::to_owned));
     assert!(report.contains("exterior medium of a shape"), "{report}");
 }
 
