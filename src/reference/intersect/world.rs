@@ -32,13 +32,13 @@ pub struct Surface {
     pub id: SurfaceId,
     pub owner: Owner,
     pub point: SurfacePoint,
-    /// Interpolated over the faces of smooth meshes, else the geometric normal; then bent by the material's normal map.
+    /// Interpolated over the faces of smooth meshes, else the geometric normal; then perturbed by the material's normal map.
     pub shading_normal: DVec3,
-    /// The normal before that, where it shadows the bent one.
-    pub unbent_normal: Option<DVec3>,
+    /// The normal before that, where it shadows the perturbed one.
+    pub unperturbed_normal: Option<DVec3>,
     /// The shading normal where a coat lies about it, or about what the coat's own map makes of it.
     pub coat_normal: Option<DVec3>,
-    /// A normal that is bent away from the viewer is mirrored about the normal before that.
+    /// A normal that is perturbed away from the viewer is mirrored about the normal before that.
     pub is_mirrored: bool,
     pub uv: DVec2,
     /// The second texture coordinates, of a mesh that has them.
@@ -323,7 +323,7 @@ impl World {
                     owner,
                     point,
                     shading_normal: point.normal,
-                    unbent_normal: None,
+                    unperturbed_normal: None,
                     coat_normal: None,
                     is_mirrored: false,
                     uv: DVec2::ZERO,
@@ -373,14 +373,14 @@ impl World {
         let second_tangents = if uses_tangents && second_uv.is_some() { tangents(UvSet::Second) } else { None };
         let tangents = if uses_tangents { tangents(UvSet::First) } else { None };
         let coat_normal = self.coat_normals_differ[owner.material].then_some(normal);
-        let unbent_normal = self.normal_maps.shadows(owner.material).then_some(normal);
+        let unperturbed_normal = self.normal_maps.shadows(owner.material).then_some(normal);
         let is_mirrored = self.normal_maps.mirrors(owner.material);
         Surface {
             id,
             owner,
             point,
             shading_normal,
-            unbent_normal,
+            unperturbed_normal,
             coat_normal,
             is_mirrored,
             uv,

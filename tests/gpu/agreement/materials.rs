@@ -273,11 +273,11 @@ fn another_material_on_the_wall_is_noticed() {
     };
     let shadows = |scene: &mut Scene| {
         let map = texture(scene, "shadowed normals");
-        scene.textures[map].shadows_bent_normals = false;
+        scene.textures[map].shadows_perturbed_normals = false;
     };
     let mirrors = |scene: &mut Scene| {
         let map = texture(scene, "mirrored normals");
-        scene.textures[map].mirrors_bent_normals = false;
+        scene.textures[map].mirrors_perturbed_normals = false;
     };
     let coat = |scene: &mut Scene| {
         let coated = of_cell(scene, &materials, "bumpy coat");
@@ -325,7 +325,7 @@ fn missing_mirrors_of_bent_normals_are_noticed() {
         "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
     );
     let mut ours = theirs.clone();
-    ours.textures.iter_mut().for_each(|texture| texture.mirrors_bent_normals = false);
+    ours.textures.iter_mut().for_each(|texture| texture.mirrors_perturbed_normals = false);
     let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
     assert!(!verdict.agrees, "{verdict:#?}");
 }
@@ -362,7 +362,7 @@ fn missing_shadows_of_bent_normals_are_noticed() {
     let theirs =
         with_edges("type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true");
     let mut ours = theirs.clone();
-    ours.textures.iter_mut().for_each(|texture| texture.shadows_bent_normals = false);
+    ours.textures.iter_mut().for_each(|texture| texture.shadows_perturbed_normals = false);
     let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
     assert!(!verdict.agrees, "{verdict:#?}");
 }

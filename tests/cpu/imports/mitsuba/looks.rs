@@ -151,8 +151,8 @@ fn bent_normals_are_shadowed() {
         let folder = Folder::new(&[("a.xml", map(more).as_bytes()), ("h.png", HAMMERED)]);
         let scene = folder.valid("a.xml");
         let bent = scene.materials.iter().find_map(|material| material.normal_map).expect("a map");
-        assert_eq!((scene.textures[bent].shadows_bent_normals, report(&scene).as_str()), (expected, ""));
-        assert_eq!(scene.textures[bent].mirrors_bent_normals, expected);
+        assert_eq!((scene.textures[bent].shadows_perturbed_normals, report(&scene).as_str()), (expected, ""));
+        assert_eq!(scene.textures[bent].mirrors_perturbed_normals, expected);
         let drawn = picture(&scene);
         assert_eq!(picture(&folder.written("a.xml")), drawn);
         drawn

@@ -149,14 +149,14 @@ impl Resolver<'_> {
 
     fn group_shape(&mut self, place: usize, written: &Located<ShapeEntry>) -> Result<crate::scene::Shape, SceneError> {
         let shape = self.checked_shape(place, written);
-        let is_bent = self.deformation.take().is_some();
+        let is_deformed = self.deformation.take().is_some();
         let shape = shape?;
         if !matches!(shape.geometry, Geometry::Mesh(_)) {
             let message = format!("a group consists of meshes, and this is a {}", shape.geometry.kind_name());
             return Err(self.error(&written.place, message).with_help("write it as a [[shape]] for each place, or as a mesh"));
         }
-        if shape.motion.is_some() || is_bent || written.value.is_animated() || shape.portal {
-            let message = "a mesh of a group has no motion of its own, is not bent and is no portal";
+        if shape.motion.is_some() || is_deformed || written.value.is_animated() || shape.portal {
+            let message = "a mesh of a group has no motion of its own, is not deformed and is no portal";
             return Err(self.error(&written.place, message).with_help("an [[instance]] can have `motion`"));
         }
         Ok(shape)

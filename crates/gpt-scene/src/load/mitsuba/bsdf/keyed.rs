@@ -15,7 +15,7 @@ pub struct NestedBsdfs {
     pub relief: Relief,
 }
 
-/// The keys by which a material's normals are bent.
+/// The keys by which a material's normals are perturbed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Relief {
     normal_map: Option<Located<TextureName>>,

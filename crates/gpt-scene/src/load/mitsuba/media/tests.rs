@@ -134,14 +134,14 @@ fn every_way_to_say_how_dense_a_medium_is() {
 fn phase_functions_are_what_they_say_or_reported() {
     let phase = |text: &str| medium("homogeneous", text).phase;
     let lobe = |kind| Phase::of(kind);
-    let bent = |g| PhaseKind::HenyeyGreenstein { g };
+    let henyey_greenstein = |g| PhaseKind::HenyeyGreenstein { g };
     assert_eq!(phase("<phase type=\"isotropic\"/>"), Phase::isotropic());
     assert_eq!(phase("<phase type=\"rayleigh\"/>"), lobe(PhaseKind::Rayleigh));
-    assert_eq!(phase("<phase type=\"hg\"><float name=\"g\" value=\"-0.3\"/></phase>"), lobe(bent(-0.3)));
+    assert_eq!(phase("<phase type=\"hg\"><float name=\"g\" value=\"-0.3\"/></phase>"), lobe(henyey_greenstein(-0.3)));
     // The default there.
-    assert_eq!(phase("<phase type=\"hg\"/>"), lobe(bent(0.8)));
+    assert_eq!(phase("<phase type=\"hg\"/>"), lobe(henyey_greenstein(0.8)));
     let blend = "<phase type=\"blendphase\"><float name=\"weight\" value=\"0.25\"/><phase type=\"rayleigh\"/><phase type=\"hg\"/></phase>";
-    let expected = [(0.75, PhaseKind::Rayleigh), (0.25, bent(0.8))].map(|(weight, kind)| PhaseLobe { weight, kind });
+    let expected = [(0.75, PhaseKind::Rayleigh), (0.25, henyey_greenstein(0.8))].map(|(weight, kind)| PhaseLobe { weight, kind });
     assert_eq!(phase(blend), Phase(expected.to_vec()));
     // The control: the weight is the second one's share.
     assert_ne!(phase(&blend.replace("0.25", "0.75")), phase(blend));
