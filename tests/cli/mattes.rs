@@ -4,7 +4,7 @@ use gpt::output::Channels;
 
 use super::*;
 
-/// A veil of half opacity before the left of a wall; behind the right edge of the wall there is nothing.
+/// A translucent surface of half opacity before the left of a wall; behind the right edge of the wall there is nothing.
 const SCENE: &str = r#"
 film.size = [16, 8]
 render.spp = 64

@@ -29,7 +29,7 @@ fn ways() -> Vec<(&'static str, PlanOptions)> {
     ]
 }
 
-/// A point of a floor below a point light, and veils between them; the camera looks from below the veils.
+/// A point of a floor below a point light, and translucent surfaces between them; the camera looks from below the translucent surfaces.
 const VEILS: &str = r#"
 [film]
 size = [2, 2]
@@ -109,7 +109,7 @@ fn veils_multiply_the_light_of_a_point_light() {
         ("nothing", String::new(), 1.0),
         ("a veil", sheet("veil", 1.0, true), 0.6),
         ("a veil blended with nothing", sheet("half", 1.0, true), 0.8),
-        ("two veils", sheet("veil", 1.0, true) + &sheet("half", 2.0, false), 0.48),
+        ("two translucent surfaces", sheet("veil", 1.0, true) + &sheet("half", 2.0, false), 0.48),
         ("both sides of a ball", ball.clone(), 0.36),
         ("both walls of a tube", tube("[-1, 3, 0.2]", "[1, 3, 0.2]"), 0.36),
         ("one wall of a tube that the light is in", tube("[-1, 4, 0.2]", "[1, 4, 0.2]"), 0.6),
@@ -147,8 +147,8 @@ fn veils_multiply_the_light_of_a_point_light() {
     }
 }
 
-/// A scene behind a veil is as bright as the opacity says, wherever a map bends the veil's normals.
-/// The veil itself is black here, so every path goes through, and carries that share exactly.
+/// A scene behind a translucent surface is as bright as the opacity says, wherever a map bends the translucent surface's normals.
+/// The translucent surface itself is black here, so every path goes through, and carries that share exactly.
 #[test]
 fn bent_normals_do_not_dim_what_is_behind() {
     let text = |bump: &str, reflectance: f64| {
@@ -169,7 +169,7 @@ shape = [{{ type = "rectangle", corner = [-30, 0, 30], edge_u = [60, 0, 0], edge
     for bump in ["", bump, &mirrored] {
         let scene = load(&text(bump, 0.0));
         let check = |device: &str, pixels: &[[f32; 3]]| {
-            // The last rows see the veil.
+            // The last rows see the translucent surface.
             for [r, g, b] in &pixels[32..] {
                 for (value, expected) in [(r, 0.6), (g, 1.2), (b, 2.4)] {
                     assert!(
@@ -192,7 +192,7 @@ shape = [{{ type = "rectangle", corner = [-30, 0, 30], edge_u = [60, 0, 0], edge
     assert!(mean(bump) < 0.99 * mean(&bump.replace("true", "false")), "{} {}", mean(bump), mean(&bump.replace("true", "false")));
 }
 
-/// Veils of every kind before an area light, a round one, a map of the sky, and glossy and diffuse surfaces that see them.
+/// Translucent surfaces of every kind before an area light, a round one, a map of the sky, and glossy and diffuse surfaces that see them.
 const ROOM: &str = r#"
 [film]
 size = [32, 24]
@@ -316,7 +316,7 @@ fn verdict(device: &gpt::gpu::Device, on_gpu: &Scene, scene: &Scene, options: &P
 fn paths_and_shadow_rays_through_veils_agree() {
     let Some(device) = DEVICE.as_ref() else { return };
     let scene = load(ROOM);
-    let everywhere = in_full("paths through veils by all four ways to run");
+    let everywhere = in_full("paths through translucent surfaces by all four ways to run");
     for (way, options) in ways().into_iter().filter(|(_, options)| everywhere || options.traversal == TraversalChoice::Auto) {
         let verdict = verdict(device, &scene, &scene, &options);
         assert!(verdict.agrees, "{way}: {verdict:#?}");
@@ -328,7 +328,7 @@ fn paths_and_shadow_rays_through_veils_agree() {
         ("pick", |scene| scene.render.blend = BlendMode::Pick),
         ("several light samples", |scene| (scene.render.light_samples, scene.render.light_samples_depth) = (3.into(), 2)),
     ];
-    let everywhere = in_full("estimators through veils by either way to run");
+    let everywhere = in_full("estimators through translucent surfaces by either way to run");
     for (index, (what, change)) in changes.into_iter().enumerate() {
         let mut scene = load(ROOM);
         change(&mut scene);
@@ -337,7 +337,7 @@ fn paths_and_shadow_rays_through_veils_agree() {
             assert!(verdict.agrees, "{what}, {way}: {verdict:#?}");
         }
     }
-    // A veil that is a little thinner on one of the devices is noticed.
+    // A translucent surface that is a little thinner on one of the devices is noticed.
     let thinner = load(&ROOM.replace("opacity = 0.35", "opacity = 0.34"));
     assert!(!verdict(device, &scene, &thinner, &PlanOptions::default()).agrees);
 }
@@ -360,7 +360,7 @@ fn means(device: &gpt::gpu::Device, scene: &Scene, options: &PlanOptions) -> Mom
         .collect()
 }
 
-/// Light samples through veils, and the weights of both ways of finding a light behind them, leave the mean where paths without light samples
+/// Light samples through translucent surfaces, and the weights of both ways of finding a light behind them, leave the mean where paths without light samples
 /// have it. Weights that do not add up to 1, and a mean 1 % off, are noticed.
 #[test]
 fn light_behind_veils_has_the_mean_of_paths_alone() {
@@ -397,7 +397,7 @@ fn opaque_scenes_compile_none_of_it() {
     };
     let transparent = plan(&(VEILS.to_owned() + &sheet("veil", 1.0, true)));
     assert!(transparent.switches.enabled.contains("TRANSPARENT_SHADOWS"));
-    // Veils that no surface is made of, and one of opacity 1.
+    // Translucent surfaces that no surface is made of, and one of opacity 1.
     let opaque = plan(&(VEILS.replace("opacity = 0.4", "opacity = 1") + &sheet("veil", 1.0, true)));
     let without = plan(&(VEILS.replace("opacity = 0.4", "") + &sheet("veil", 1.0, true)));
     assert!(!opaque.switches.enabled.contains("TRANSPARENT_SHADOWS") && !opaque.switches.enabled.contains("BLENDS"));
