@@ -48,13 +48,13 @@ pub struct ReferenceRenderer {
 }
 
 /// Counts rays, and gives up paths that do not end when the render is to.
-struct Watched<'a> {
+struct PathLimiter<'a> {
     rays: u64,
     stopping: &'a Stopping<'a>,
     gave_up: Option<Ending>,
 }
 
-impl PathVisitor for Watched<'_> {
+impl PathVisitor for PathLimiter<'_> {
     fn ray(&mut self, _ray: &Ray) {
         self.rays += 1;
     }
@@ -185,7 +185,7 @@ impl ReferenceRenderer {
     fn sample_pixel(&self, x: u32, y: u32, batch: &BatchSamples<'_>, points: &[SequencePoint], sum: &mut PixelSum) -> Counts {
         let sampling = &batch.sampling;
         let pixel = y.wrapping_mul(self.integrator.scene().film.size[0]).wrapping_add(x);
-        let mut watched = Watched { rays: 0, stopping: &batch.stopping, gave_up: None };
+        let mut limiter = PathLimiter { rays: 0, stopping: &batch.stopping, gave_up: None };
         let (mut samples, mut traced, mut non_finite) = (0, 0_u64, 0);
         let mut clamp = Clamp::new(self.integrator.scene().render.clamp, self.layer);
         let camera = self.integrator.view_axis();
@@ -193,7 +193,7 @@ impl ReferenceRenderer {
             let sampler = PathSampler::new(sampling, pixel, point);
             let mut radiance = Spectrum::BLACK;
             if let Some(layer) = self.layer {
-                let mut visitor = LayerVisitor::new(layer, camera, &mut watched);
+                let mut visitor = LayerVisitor::new(layer, camera, &mut limiter);
                 let found = clamp.darken(self.integrator.radiance(x, y, &sampler, &mut visitor));
                 let Some(value) = visitor.value(found) else {
                     traced += 1;
@@ -201,9 +201,9 @@ impl ReferenceRenderer {
                 };
                 radiance += value;
             } else {
-                radiance += clamp.darken(self.integrator.radiance(x, y, &sampler, &mut watched));
+                radiance += clamp.darken(self.integrator.radiance(x, y, &sampler, &mut limiter));
             }
-            if watched.gave_up.is_some() {
+            if limiter.gave_up.is_some() {
                 break;
             }
             (samples, traced) = (samples + 1, traced + 1);
@@ -217,7 +217,7 @@ impl ReferenceRenderer {
         }
         sum.samples += samples;
         let (clamped, clamped_units) = (clamp.samples, clamp.units());
-        Counts { samples: traced, rays: watched.rays, non_finite, clamped, clamped_units, gave_up: watched.gave_up }
+        Counts { samples: traced, rays: limiter.rays, non_finite, clamped, clamped_units, gave_up: limiter.gave_up }
     }
 
     /// One pass over a band: the samples `range` of the request, but for its first pixels, which have them.

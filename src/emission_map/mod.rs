@@ -30,13 +30,13 @@ pub struct EmissionMaps<'a> {
 
 #[derive(Debug, Clone)]
 struct EmissionMap<'a> {
-    shown: Shown<'a>,
+    shown: EmissionSource<'a>,
     evenly: OnceCell<Whole>,
     sphere: OnceCell<Whole>,
 }
 
 #[derive(Debug, Clone)]
-enum Shown<'a> {
+enum EmissionSource<'a> {
     Image(EmissionImage),
     Function(Function<'a>),
 }
@@ -73,8 +73,8 @@ impl<'a> EmissionMaps<'a> {
         let emitters = scene.shapes.iter().filter(|shape| shape.materials().any(shows));
         let parts: usize = emitters.map(|shape| shape.geometry.faces().max(1)).sum();
         let of = |id: MaterialId| {
-            let picture = EmissionImage::of(scene, &scene.materials[id], parts).map(Shown::Image);
-            let shown = picture.or_else(|| Function::of(scene, id, parts).map(Shown::Function))?;
+            let picture = EmissionImage::of(scene, &scene.materials[id], parts).map(EmissionSource::Image);
+            let shown = picture.or_else(|| Function::of(scene, id, parts).map(EmissionSource::Function))?;
             Some(EmissionMap { shown, evenly: OnceCell::new(), sphere: OnceCell::new() })
         };
         Self { maps: (0..emits.len()).map(|id| if shows(id) { of(id) } else { None }).collect() }
@@ -110,7 +110,7 @@ impl EmissionMap<'_> {
     }
 }
 
-impl Shown<'_> {
+impl EmissionSource<'_> {
     fn mean_over_triangle(&self, corners: &[Coordinates; 3]) -> Option<f64> {
         match self {
             Self::Image(picture) => picture.mean_over_triangle(corners),
@@ -144,7 +144,7 @@ impl Shown<'_> {
 }
 
 impl Whole {
-    fn of(shown: &Shown, unrolled: Unrolled) -> Self {
+    fn of(shown: &EmissionSource, unrolled: Unrolled) -> Self {
         let [columns, rows] = shown.cells();
         let size = DVec2::new(columns.into(), rows.into());
         let of_cell = |(row, column): (u32, u32)| {

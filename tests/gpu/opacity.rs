@@ -30,7 +30,7 @@ fn ways() -> Vec<(&'static str, PlanOptions)> {
 }
 
 /// A point of a floor below a point light, and translucent surfaces between them; the camera looks from below the translucent surfaces.
-const VEILS: &str = r#"
+const SHEETS: &str = r#"
 [film]
 size = [2, 2]
 [render]
@@ -97,7 +97,7 @@ fn green(pixels: &[[f32; 3]]) -> f64 {
 
 /// A point light's light is multiplied by what each surface in between lets through, whatever traces the shadow ray.
 #[test]
-fn veils_multiply_the_light_of_a_point_light() {
+fn translucent_surfaces_multiply_the_light_of_a_point_light() {
     // ρ/π · I/d²
     let free = 0.5 / std::f64::consts::PI * 2.0 / 16.0;
     let ball = "[[shape]]\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = 0.5\nmaterial = \"veil\"\n".to_owned();
@@ -107,8 +107,8 @@ fn veils_multiply_the_light_of_a_point_light() {
     let round = ball.clone() + &tube("[-1, 2.6, 0.1]", "[1, 1.4, 0.1]");
     let rows = [
         ("nothing", String::new(), 1.0),
-        ("a veil", sheet("veil", 1.0, true), 0.6),
-        ("a veil blended with nothing", sheet("half", 1.0, true), 0.8),
+        ("a translucent surface", sheet("veil", 1.0, true), 0.6),
+        ("a translucent surface blended with nothing", sheet("half", 1.0, true), 0.8),
         ("two translucent surfaces", sheet("veil", 1.0, true) + &sheet("half", 2.0, false), 0.48),
         ("both sides of a ball", ball.clone(), 0.36),
         ("both walls of a tube", tube("[-1, 3, 0.2]", "[1, 3, 0.2]"), 0.36),
@@ -126,9 +126,9 @@ fn veils_multiply_the_light_of_a_point_light() {
         ),
         ("an opaque sheet behind", sheet("veil", 1.0, true) + &sheet("floor", 2.0, true), 0.0),
     ];
-    let everywhere = in_full("each kind of veil by every way to run");
+    let everywhere = in_full("each kind of translucent surface by every way to run");
     for (what, shapes, share) in rows {
-        let scene = load(&(VEILS.to_owned() + &shapes));
+        let scene = load(&(SHEETS.to_owned() + &shapes));
         let check = |device: &str, found: f64| {
             assert!((found - share * free).abs() < 2e-6 * free, "{what}, {device}: {found} and not {}", share * free);
         };
@@ -313,7 +313,7 @@ fn verdict(device: &gpt::gpu::Device, on_gpu: &Scene, scene: &Scene, options: &P
 }
 
 #[test]
-fn paths_and_shadow_rays_through_veils_agree() {
+fn paths_and_shadow_rays_through_translucent_surfaces_agree() {
     let Some(device) = DEVICE.as_ref() else { return };
     let scene = load(ROOM);
     let everywhere = in_full("paths through translucent surfaces by all four ways to run");
@@ -363,7 +363,7 @@ fn means(device: &gpt::gpu::Device, scene: &Scene, options: &PlanOptions) -> Mom
 /// Light samples through translucent surfaces, and the weights of both ways of finding a light behind them, leave the mean where paths without light samples
 /// have it. Weights that do not add up to 1, and a mean 1 % off, are noticed.
 #[test]
-fn light_behind_veils_has_the_mean_of_paths_alone() {
+fn light_behind_translucent_surfaces_has_the_mean_of_paths_alone() {
     let Some(device) = DEVICE.as_ref() else { return };
     let mut scene = load(ROOM);
     (scene.render.spp, scene.render.sampler) = (64, SamplerKind::Independent);
@@ -395,11 +395,11 @@ fn opaque_scenes_compile_none_of_it() {
         let packed = PackedScene::new(&scene).expect("it packs");
         Plan::new(&scene, &packed, &DeviceLimits::default(), &PlanOptions::default()).expect("it fits")
     };
-    let transparent = plan(&(VEILS.to_owned() + &sheet("veil", 1.0, true)));
+    let transparent = plan(&(SHEETS.to_owned() + &sheet("veil", 1.0, true)));
     assert!(transparent.switches.enabled.contains("TRANSPARENT_SHADOWS"));
     // Translucent surfaces that no surface is made of, and one of opacity 1.
-    let opaque = plan(&(VEILS.replace("opacity = 0.4", "opacity = 1") + &sheet("veil", 1.0, true)));
-    let without = plan(&(VEILS.replace("opacity = 0.4", "") + &sheet("veil", 1.0, true)));
+    let opaque = plan(&(SHEETS.replace("opacity = 0.4", "opacity = 1") + &sheet("veil", 1.0, true)));
+    let without = plan(&(SHEETS.replace("opacity = 0.4", "") + &sheet("veil", 1.0, true)));
     assert!(!opaque.switches.enabled.contains("TRANSPARENT_SHADOWS") && !opaque.switches.enabled.contains("BLENDS"));
     assert_eq!(opaque.switches, without.switches);
 }

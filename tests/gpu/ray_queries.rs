@@ -132,7 +132,7 @@ fn verified_they_are_used_unasked() {
 
 /// A shadow ray meets each shape at its nearest point, and must not come back to it.
 #[test]
-fn shadow_rays_go_on_behind_veils_of_every_shape() {
+fn shadow_rays_go_on_behind_translucent_surfaces_of_every_shape() {
     let Some(device) = RAY_QUERY_DEVICE.as_ref() else { return };
     let mut scene = small("arbour", [32, 20], 2);
     let expected = picture(device, &scene, &by_nodes());
@@ -144,7 +144,7 @@ fn shadow_rays_go_on_behind_veils_of_every_shape() {
 /// Far from the middle, our distance to a translucent surface and the device's differ by more than the step behind it. A shadow ray must neither meet the translucent surface for
 /// ever nor count it twice.
 #[test]
-fn veils_far_from_the_middle_are_passed_once() {
+fn translucent_surfaces_far_from_the_middle_are_passed_once() {
     if RAY_QUERY_DEVICE.is_none() {
         return;
     }

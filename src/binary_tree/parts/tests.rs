@@ -81,12 +81,12 @@ fn hits(tree: &Bvh2, triangles: &[[Vec3A; 3]]) -> (Vec<Option<u32>>, usize) {
 }
 
 /// Two parts that go through each other, and one that rests.
-struct Stage {
+struct MovingModel {
     rest: Vec<[Vec3A; 3]>,
     count: u32,
 }
 
-impl Stage {
+impl MovingModel {
     fn at(&self, angle: f32, offset: f32) -> Vec<[Vec3A; 3]> {
         let turn = |angle: f32, offset: f32| {
             Affine3A::from_rotation_translation(Quat::from_axis_angle(Vec3::new(0.6, 0.8, 0.0), angle), offset * Vec3::X)
@@ -105,8 +105,8 @@ impl Stage {
     }
 }
 
-fn stage() -> Stage {
-    Stage { rest: soup(700), count: 700 }
+fn stage() -> MovingModel {
+    MovingModel { rest: soup(700), count: 700 }
 }
 
 fn are_equal(a: &Bvh2, b: &Bvh2) -> bool {

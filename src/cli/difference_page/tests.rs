@@ -12,7 +12,7 @@ fn section<'a>(images: &'a [Image; 2], tiles: &'a ImageComparison, map: &'a Flip
         facts: vec!["a fact".to_owned()],
         findings: vec![(Region { x: 1, y: 2, width: 3, height: 4 }, "a finding".to_owned())],
         commands: vec!["gpt test <here>".to_owned()],
-        shown: Some(Shown { labels: ["golden", "now"], images: [&images[0], &images[1]], tiles, flip: map }),
+        shown: Some(PicturePair { labels: ["golden", "now"], images: [&images[0], &images[1]], tiles, flip: map }),
     }
 }
 

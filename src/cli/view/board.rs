@@ -70,7 +70,7 @@ pub enum Phase {
 }
 
 #[derive(Default)]
-struct Shown {
+struct BoardState {
     /// Counts changes of anything.
     version: u64,
     status: Status,
@@ -89,7 +89,7 @@ struct Shown {
 /// Everything that is shown.
 #[derive(Default)]
 pub struct Board {
-    shown: Mutex<Shown>,
+    shown: Mutex<BoardState>,
     changed: Condvar,
 }
 
@@ -115,12 +115,12 @@ impl Board {
         board
     }
 
-    fn lock(&self) -> MutexGuard<'_, Shown> {
+    fn lock(&self) -> MutexGuard<'_, BoardState> {
         // The content is whole whatever panicked while holding it.
         self.shown.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn change(&self, change: impl FnOnce(&mut Shown)) {
+    fn change(&self, change: impl FnOnce(&mut BoardState)) {
         let mut shown = self.lock();
         change(&mut shown);
         shown.version += 1;

@@ -3,7 +3,7 @@
 use super::super::extent::{has_few_pixels, has_many_triangles};
 use super::cost::costs;
 use super::sum::{Rays, Sum};
-use super::tried::{Found, InView, errors_of_guiding, tried_pixels};
+use super::tried::{InView, TrialResult, errors_of_guiding, tried_pixels};
 use crate::reference::integrator::Integrator;
 use crate::scene::{FEW_PRIMITIVES, Scene};
 
@@ -18,12 +18,12 @@ pub fn why_no_guide(scene: &Scene) -> Option<&'static str> {
 /// Error times cost with the guide that the integrator has, over that without one.
 pub fn loss_with_guide(integrator: &mut Integrator) -> f64 {
     let pixels = tried_pixels(integrator.scene());
-    let (found, estimates) = Found::unguided(integrator, pixels);
+    let (found, estimates) = TrialResult::unguided(integrator, pixels);
     let in_view = InView::new(integrator, pixels);
     let costs = costs(integrator.primitive_count() <= FEW_PRIMITIVES);
     let cost = |rays: Rays, of_guide: f64| (1.0 + of_guide) * rays.path + costs.light_sample * rays.shadow;
     let unguided_rays = estimates.iter().fold(Rays::default(), |sum, estimate| sum.and(estimate.rays));
-    let rays = found.rays().times(1.0 / Found::paths(1));
+    let rays = found.rays().times(1.0 / TrialResult::paths(1));
     let [error, unguided_error] = errors_of_guiding(&found, &estimates, &in_view);
     let errors = if unguided_error > 0.0 { error / unguided_error } else { 1.0 };
     errors * cost(rays, costs.guide) / cost(unguided_rays, 0.0)
@@ -35,8 +35,8 @@ mod tests {
 
     use super::super::super::guide;
     use super::super::super::paths::{follow, pixel_of};
+    use super::super::trial_path::{Record, TrialPath};
     use super::super::unguided::{UnguidedEstimate, UnguidedRecord};
-    use super::super::watched::{Record, Watched};
     use super::*;
     use crate::compare::Moments;
     use crate::load;
@@ -82,7 +82,7 @@ mod tests {
         let sampling = Sampling { path: SamplerKind::Independent, seed, ..Sampling::from(settings) };
         let mut found = [Moments::default(); 2];
         for path in 0..40_000 {
-            let mut watcher = Watched::<UnguidedRecord>::new(settings);
+            let mut watcher = TrialPath::<UnguidedRecord>::new(settings);
             follow(integrator, &sampling, pixel_of(path, integrator.scene().film.size), path, &mut watcher);
             for (moments, value) in found.iter_mut().zip(value(watcher.record.statistics())) {
                 moments.push(value);

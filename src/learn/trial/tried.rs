@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::super::extent::pixel_count;
 use super::super::paths::pixel_of;
 use super::sum::{Rays, Sum};
+use super::trial_path::{Record, TrialPath};
 use super::unguided::{UnguidedEstimate, UnguidedRecord};
-use super::watched::{Record, Watched};
 use crate::compare::metrics::relative_weight;
 use crate::reference::integrator::Integrator;
 use crate::reference::work;
@@ -40,7 +40,7 @@ pub fn tried_pixels(scene: &Scene) -> u32 {
 }
 
 /// The result of one way of drawing from lights.
-pub struct Found {
+pub struct TrialResult {
     pixels: Vec<TriedPixel>,
     /// The cost of its paths, in rays of paths.
     pub cost: f64,
@@ -48,7 +48,7 @@ pub struct Found {
     pub work: u64,
 }
 
-impl Found {
+impl TrialResult {
     /// Renders so many pixels; the cost is not known yet.
     pub fn new(integrator: &Integrator, pixels: u32) -> Self {
         Self::recorded::<()>(integrator, pixels).0
@@ -101,7 +101,7 @@ impl Found {
         self.loss_beside(other, in_view, &together)
     }
 
-    /// [`Found::loss_over`] for a way that makes outliers darker and more frequent. Errors are relative to
+    /// [`TrialResult::loss_over`] for a way that makes outliers darker and more frequent. Errors are relative to
     /// the light around a pixel: relative to that in the pixel itself, an outlier would count the same
     /// however bright it is.
     pub fn loss_of_outliers_over(&self, other: &Self, in_view: &InView) -> f64 {
@@ -131,7 +131,7 @@ impl Found {
 
 /// The error of guided paths, and that of unguided ones. Samples depend on each other by their random
 /// numbers, which makes the error less than the variance of a sample says, by the same share either way.
-pub fn errors_of_guiding(found: &Found, estimates: &[UnguidedEstimate], in_view: &InView) -> [f64; 2] {
+pub fn errors_of_guiding(found: &TrialResult, estimates: &[UnguidedEstimate], in_view: &InView) -> [f64; 2] {
     let mut variances = [0.0; 2];
     for ((pixel, weight), estimate) in found.weighed().zip(estimates) {
         for (variance, moment) in variances.iter_mut().zip([estimate.guided, estimate.unguided]) {
@@ -238,13 +238,13 @@ fn pictures(integrator: &Integrator, count: u32) -> Vec<Replication> {
 
 impl Replication {
     /// Renders a pixel.
-    fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> Shown<R::Statistics> {
+    fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> PixelEstimate<R::Statistics> {
         let size = integrator.scene().film.size;
         let [x, y] = pixel_of(number, size);
         let pixel = y.wrapping_mul(size[0]).wrapping_add(x);
-        let mut shown: Shown<R::Statistics> = Shown::default();
+        let mut shown: PixelEstimate<R::Statistics> = PixelEstimate::default();
         for point in &self.points {
-            let mut path = Watched::<R>::new(&integrator.scene().render);
+            let mut path = TrialPath::<R>::new(&integrator.scene().render);
             let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut path);
             // The film leaves out what is not finite, too.
             if found.is_finite() {
@@ -260,7 +260,7 @@ impl Replication {
 
 /// Light that the first edges of a pixel's paths find, and light beyond those.
 #[derive(Default)]
-struct Shown<T> {
+struct PixelEstimate<T> {
     in_view: Spectrum,
     beyond: Spectrum,
     rays: Rays,
@@ -287,7 +287,8 @@ struct TriedPixel {
 impl TriedPixel {
     /// With the statistics of a sample of it about other ways.
     fn of<R: Record>(integrator: &Integrator, pictures: &[Replication], number: u32) -> (Self, R::Statistics) {
-        let shown: Vec<Shown<R::Statistics>> = pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
+        let shown: Vec<PixelEstimate<R::Statistics>> =
+            pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
         let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<Spectrum>>());
         let in_view = shown.iter().map(|shown| shown.in_view).sum::<Spectrum>() / f64::from(PICTURES);
         let statistics = shown.iter().fold(R::Statistics::default(), |sum, shown| sum.and(shown.statistics));

@@ -9,7 +9,7 @@
 //! its rays.
 
 use super::sum::{Rays, Sum};
-use super::watched::Record;
+use super::trial_path::Record;
 use crate::reference::bsdf::{BsdfSample, Density};
 use crate::reference::trace::LightConnection;
 use crate::reference::{mis, roulette};

@@ -31,7 +31,7 @@ use goal::stop_of;
 pub use goal::{Goal, Outcome, STREAMS, Stop};
 use keeping::WholeBatch;
 use steps::Work;
-use watching::{Watch, Watched};
+use watching::{Watch, WatchedSink};
 
 /// Renders the whole film of `size` and hands it over as bands from the top. `Band::samples` of an adaptive picture are the samples per
 /// pixel that were spent on average.
@@ -118,10 +118,10 @@ fn render_iterations(
     let goes_on_in_bands = batch.resume.is_some_and(|state| state.rows != batch.request.rows);
     let in_bands = goes_on_in_bands || !renderer.holds_whole_film();
     let report = match checkpoint {
-        None => renderer.render_into(batch, observer, &mut Watched::new(&mut on_band, watch))?,
+        None => renderer.render_into(batch, observer, &mut WatchedSink::new(&mut on_band, watch))?,
         Some(checkpoint) => {
             let mut kept = WholeBatch { checkpoint, on_band, in_bands };
-            renderer.render_into(batch, observer, &mut Watched::new(&mut kept, watch))?
+            renderer.render_into(batch, observer, &mut WatchedSink::new(&mut kept, watch))?
         }
     };
     let stop = stop_of(&report).unwrap_or(Stop::Samples);

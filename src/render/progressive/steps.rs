@@ -10,7 +10,7 @@ use super::doublings::Doublings;
 use super::error::ErrorEstimator;
 use super::goal::{Goal, Outcome, STREAMS, Stop, stop_of};
 use super::keeping::StepBatch;
-use super::schedule::{self, Clock, Stage, stages};
+use super::schedule::{self, AdaptiveStage, Clock, stages};
 use super::watching::Watch;
 use crate::film::Band;
 use crate::render::checkpoint::Checkpoint;
@@ -147,7 +147,7 @@ impl<'a> Work<'a> {
 
     /// Gives more samples to the pixels that need them by what the first samples of all pixels show, stage by
     /// stage. None: all are done and the goal is not reached.
-    fn run_stages(&mut self, stages: &[Stage]) -> Result<Option<Stop>, RenderError> {
+    fn run_stages(&mut self, stages: &[AdaptiveStage]) -> Result<Option<Stop>, RenderError> {
         let pixels = self.size[0] as usize * self.size[1] as usize;
         let (mut at, kept) = match &mut self.resume {
             Some(resume) => (Some(resume.place), resume.doublings.take()),
@@ -157,7 +157,7 @@ impl<'a> Work<'a> {
         // How often each pixel's share of the stage is doubled by what it has.
         let mut levels = if at.is_some() { self.levels.clone() } else { vec![0_u8; pixels] };
         let first_stage = at.map_or(0, |place| place.stage);
-        for (index, &Stage { floor, budget }) in stages.iter().enumerate().skip(first_stage) {
+        for (index, &AdaptiveStage { floor, budget }) in stages.iter().enumerate().skip(first_stage) {
             // The first interval that is not over.
             let resumed = at.take().map(|place| place.interval);
             let first = resumed.unwrap_or(0);

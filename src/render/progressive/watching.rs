@@ -10,7 +10,7 @@ use crate::renderer::state::BatchState;
 use crate::renderer::{Batch, Observer};
 
 /// Passes everything on to another sink, and what the observer wants to see to the observer.
-pub struct Watched<'a> {
+pub struct WatchedSink<'a> {
     sink: &'a mut dyn Sink,
     watch: Watch<'a>,
     /// The next state is the observer's alone.
@@ -28,13 +28,13 @@ pub struct Watch<'a> {
     pub region: Option<[u32; 4]>,
 }
 
-impl<'a> Watched<'a> {
+impl<'a> WatchedSink<'a> {
     pub fn new(sink: &'a mut dyn Sink, watch: Watch<'a>) -> Self {
         Self { sink, watch, is_for_observer: Cell::new(false) }
     }
 }
 
-impl Sink for Watched<'_> {
+impl Sink for WatchedSink<'_> {
     fn band(&mut self, band: Band) -> io::Result<()> {
         self.sink.band(band)
     }
@@ -171,7 +171,7 @@ mod tests {
             eyes.wants.store(eyes_want, Ordering::Relaxed);
             let (kept, seen) = (checkpoints.states, eyes.seen.lock().expect("one thread").len());
             let watch = Watch { observer: &eyes, batch: &batch, width: 3, region: None };
-            let mut watched = Watched::new(&mut checkpoints, watch);
+            let mut watched = WatchedSink::new(&mut checkpoints, watch);
             if watched.wants_state() {
                 watched.state(state()).expect("nothing is written");
             }
@@ -181,7 +181,7 @@ mod tests {
         // The last state of a render that breaks off comes unasked.
         eyes.wants.store(false, Ordering::Relaxed);
         let watch = Watch { observer: &eyes, batch: &batch, width: 3, region: None };
-        Watched::new(&mut checkpoints, watch).state(state()).expect("nothing is written");
+        WatchedSink::new(&mut checkpoints, watch).state(state()).expect("nothing is written");
         assert_eq!(checkpoints.states, 3);
     }
 

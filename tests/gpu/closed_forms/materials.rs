@@ -361,15 +361,15 @@ fn translucent_surfaces(cases: &mut Vec<Case>) {
     let pass = |scene: &mut Scene| material(scene, MaterialKind::Pass, None);
     let mut scene = spot(256, 40.0);
     let (nothing, matte) = (pass(&mut scene), diffuse(&mut scene, 0.6));
-    let veil = blend(&mut scene, nothing, matte, half());
-    floor_at_spot(&mut scene, veil);
-    push_modes(cases, "veil", &scene, Spectrum::grey(0.5 + 0.5 * 0.6), &ALL);
+    let translucent = blend(&mut scene, nothing, matte, half());
+    floor_at_spot(&mut scene, translucent);
+    push_modes(cases, "translucent surface", &scene, Spectrum::grey(0.5 + 0.5 * 0.6), &ALL);
 
     let mut scene = spot(256, 40.0);
     let (light, nothing) = (emissive(&mut scene, Spectrum::new(2.0, 1.0, 0.5)), pass(&mut scene));
     let flame = blend(&mut scene, light, nothing, BlendWeight::Constant { value: 0.3 });
     floor_at_spot(&mut scene, flame);
-    push_modes(cases, "glowing veil", &scene, Spectrum::new(2.0, 1.0, 0.5) * 0.3 + Spectrum::grey(0.7), &ALL);
+    push_modes(cases, "glowing translucent surface", &scene, Spectrum::new(2.0, 1.0, 0.5) * 0.3 + Spectrum::grey(0.7), &ALL);
 
     // Two walls of a hollow ball, each letting nine tenths through, end no edge: the light behind is seen directly.
     let mut scene = spot(256, 40.0);

@@ -13,7 +13,7 @@ use super::file::shape::{ShapeEntry, plane, rectangle};
 use super::file::syntax::CameraTable;
 use super::file::value::{Checked, Located};
 use super::files::Files;
-use super::framing::{FIELD_OF_VIEW, GROUND, LIGHT, SKY, Stage};
+use super::framing::{FIELD_OF_VIEW, GROUND, LIGHT, ModelStage, SKY};
 use super::import::{Description, camera_at};
 use super::place::{Origin, Place};
 use super::{gltf, mitsuba};
@@ -93,7 +93,7 @@ fn add_stage(description: &mut Description, name: &str, place: &Place) -> Result
     if points.is_empty() && has_light {
         return Ok(add_camera(description, DVec3::ZERO, DVec3::NEG_Z, place));
     }
-    let Stage { ground, light, camera } = Stage::around(&points, name)?;
+    let ModelStage { ground, light, camera } = ModelStage::around(&points, name)?;
     let mut made = add_camera(description, camera.position, camera.look_at, place);
     if !has_light {
         made = made.and_then(|()| add_sky(description, place)).and_then(|()| add_surfaces(description, ground, light, place));

@@ -147,13 +147,13 @@ type Kind = (usize, Option<MaterialId>, Option<[u64; 3]>);
 struct Expansion<'a> {
     groups: &'a Groups,
     is_pass: &'a dyn Fn(MaterialId) -> bool,
-    found: Vec<Found>,
+    found: Vec<InstancesOfGroup>,
     /// Which of them are of a group, of a material, and move about a point.
     known: HashMap<Kind, usize>,
 }
 
 /// Instances of one group of the scene.
-struct Found {
+struct InstancesOfGroup {
     file_group: usize,
     group: usize,
     material: Option<MaterialId>,
@@ -172,7 +172,7 @@ impl Expansion<'_> {
             let pivot = if group == entry.group { None } else { pivot };
             let key = (group, material, pivot.map(|pivot| pivot.to_array().map(f64::to_bits)));
             let index = *self.known.entry(key).or_insert_with(|| {
-                self.found.push(Found { file_group: group, group: own, material, pivot, places: Vec::new() });
+                self.found.push(InstancesOfGroup { file_group: group, group: own, material, pivot, places: Vec::new() });
                 self.found.len() - 1
             });
             self.found[index].places.push(map);

@@ -47,7 +47,7 @@ impl Record for () {
 }
 
 /// A path that is followed.
-pub struct Watched<R> {
+pub struct TrialPath<R> {
     pub rays: Rays,
     /// Light of its first edge, on which it may have gone through null surfaces.
     pub in_view: Spectrum,
@@ -55,7 +55,7 @@ pub struct Watched<R> {
     pub record: R,
 }
 
-impl<R: Record> Watched<R> {
+impl<R: Record> TrialPath<R> {
     pub fn new(settings: &RenderSettings) -> Self {
         Self { rays: Rays::default(), in_view: Spectrum::BLACK, scatters: false, record: R::new(settings) }
     }
@@ -74,7 +74,7 @@ impl<R: Record> Watched<R> {
     }
 }
 
-impl<R: Record> PathVisitor for Watched<R> {
+impl<R: Record> PathVisitor for TrialPath<R> {
     const COMPARES: bool = R::COMPARES;
 
     fn surface(&mut self, depth: u32, _: &Surface, _: DVec3, throughput: Spectrum) {
