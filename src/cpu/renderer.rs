@@ -127,9 +127,9 @@ impl ReferenceRenderer {
     fn decisions(&self) -> Vec<Decision> {
         let settings = &self.integrator.scene().render;
         let guided = self.integrator.guide().is_some();
-        let way = self.integrator.light_way();
+        let strategy = self.integrator.light_strategy();
         let Reasons { light_choice, light_samples, directions, .. } = &self.because;
-        let of_choice = light_choice.iter().map(|because| Decision::about_light_choice(way, because));
+        let of_choice = light_choice.iter().map(|because| Decision::about_light_choice(strategy, because));
         let of_lights =
             light_samples.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
         let of_directions = directions.iter().map(|because| Decision::about_directions(guided, because));

@@ -27,7 +27,7 @@ use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
-use crate::sampling::light_way::{LightWay, MANY_LIGHTS};
+use crate::sampling::light_strategy::{LightStrategy, MANY_LIGHTS};
 use crate::sampling::{LightSampleContext, LightTree, Sampling};
 use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, Shape};
 use crate::spectrum::Spectrum;
@@ -94,7 +94,7 @@ pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
     let mut integrator = Integrator::new(&by_cells)?;
     let (count, groups) = (integrator.lights().local_count(), integrator.lights().group_count());
     let has_few = count < MANY_LIGHTS;
-    if integrator.light_way() != LightWay::Cells || (is_open && has_few && groups < 2) {
+    if integrator.light_strategy() != LightStrategy::Cells || (is_open && has_few && groups < 2) {
         integrator.set_light_choice(scene.render.light_choice);
         return Ok(LightsSettled { integrator: Some(integrator), ..as_it_is });
     }

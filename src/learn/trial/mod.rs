@@ -25,7 +25,7 @@ use crate::reference::Integrator;
 use crate::reference::intersect::Outline;
 use crate::reference::work;
 use crate::renderer::RenderError;
-use crate::sampling::light_way::LightWay;
+use crate::sampling::light_strategy::LightStrategy;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{Estimator, FEW_PRIMITIVES, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 use cost::costs;
@@ -276,7 +276,7 @@ impl<'a> TrialRun<'a> {
         settings
     }
 
-    fn set_way(&mut self, tried: Tried) -> RenderSettings {
+    fn set_strategy(&mut self, tried: Tried) -> RenderSettings {
         let settings = self.way(tried);
         self.integrator.set_light_choice(settings.light_choice);
         self.integrator.set_light_sampling(&settings);
@@ -284,7 +284,7 @@ impl<'a> TrialRun<'a> {
     }
 
     fn try_way(&mut self, tried: Tried) -> TrialResult {
-        let settings = self.set_way(tried);
+        let settings = self.set_strategy(tried);
         let mut found = TrialResult::new(&self.integrator, self.pixels);
         self.spent += found.work;
         if self.shadow_rays == 0.0 {
@@ -312,10 +312,10 @@ impl<'a> TrialRun<'a> {
             Some(Outline::Rectangle) => costs.of_rectangle,
             Some(Outline::Triangle) => costs.of_triangle,
         };
-        let of_choice = match self.integrator.light_way() {
-            LightWay::Power => 0.0,
-            LightWay::Tree => costs.tree_of_lights,
-            LightWay::Cells => costs.cells_of_lights,
+        let of_choice = match self.integrator.light_strategy() {
+            LightStrategy::Power => 0.0,
+            LightStrategy::Tree => costs.tree_of_lights,
+            LightStrategy::Cells => costs.cells_of_lights,
         };
         costs.light_sample + of_choice + of_point
     }

@@ -16,8 +16,8 @@ use super::texture::{self, PackedTextures};
 use super::world::WorldGeometry;
 use crate::emission_map::{EmissionMaps, Unrolled};
 use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
+use crate::sampling::light_strategy::LightStrategy;
 use crate::sampling::light_tree::{Emitter, LightNode};
-use crate::sampling::light_way::LightWay;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightCells, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, Scene};
@@ -131,13 +131,13 @@ pub fn collect(
         light.pmf = table.pmf[index] as f32;
     }
     let local_count = sampler.local_count();
-    match LightWay::of(scene.render.light_choice, &sampler) {
-        LightWay::Power => return Ok(SampledLights { lights, local_count, ..SampledLights::default() }),
-        LightWay::Cells => {
+    match LightStrategy::of(scene.render.light_choice, &sampler) {
+        LightStrategy::Power => return Ok(SampledLights { lights, local_count, ..SampledLights::default() }),
+        LightStrategy::Cells => {
             let cells = LightCells::default().words().to_vec();
             return Ok(SampledLights { lights, local_count, cells, ..SampledLights::default() });
         }
-        LightWay::Tree => choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity()),
+        LightStrategy::Tree => choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity()),
     }
     let of_surface = |(primitive, surface): (&WorldPrimitive, &EmittingSurface)| {
         Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?, surface.power))

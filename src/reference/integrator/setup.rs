@@ -11,7 +11,7 @@ use crate::reference::lights::Lights;
 use crate::reference::medium::MediumStack;
 use crate::renderer::RenderError;
 use crate::sampling::hash::mix;
-use crate::sampling::light_way::LightWay;
+use crate::sampling::light_strategy::LightStrategy;
 use crate::sampling::{Guide, LightCells, LightSampleContext};
 use crate::scene::{ColorInput, Emission, Emitters, LightChoice, Media, RenderSettings, Scene};
 use crate::spectrum::Spectrum;
@@ -96,10 +96,10 @@ impl Integrator {
             return;
         }
         self.scene.render.light_choice = choice;
-        self.lights.set_way(match choice {
-            LightChoice::Auto | LightChoice::Power => LightWay::Power,
-            LightChoice::Tree => LightWay::Tree,
-            LightChoice::Cells => LightWay::Cells,
+        self.lights.set_strategy(match choice {
+            LightChoice::Auto | LightChoice::Power => LightStrategy::Power,
+            LightChoice::Tree => LightStrategy::Tree,
+            LightChoice::Cells => LightStrategy::Cells,
         });
     }
 
@@ -110,7 +110,7 @@ impl Integrator {
 
     /// The cells by which lights are chosen; None where they are chosen otherwise.
     pub fn light_cells(&self) -> Option<&Arc<LightCells>> {
-        self.lights.in_cells().filter(|_| self.lights.way() == LightWay::Cells).map(|(choice, _)| &choice.cells)
+        self.lights.in_cells().filter(|_| self.lights.strategy() == LightStrategy::Cells).map(|(choice, _)| &choice.cells)
     }
 
     /// Keeps what was learned, where lights may be chosen by cells.
@@ -144,8 +144,8 @@ impl Integrator {
     }
 
     /// How lights are chosen.
-    pub fn light_way(&self) -> LightWay {
-        self.lights.way()
+    pub fn light_strategy(&self) -> LightStrategy {
+        self.lights.strategy()
     }
 
     /// Lets paths have so many edges; returns how many they had.

@@ -26,8 +26,8 @@ use super::work;
 use crate::emission_map::{EmissionMaps, EmitterPart, Unrolled};
 use crate::sampling::light_cells::{LightCellChoice, LightCells, LightSampleContext};
 use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
+use crate::sampling::light_strategy::LightStrategy;
 use crate::sampling::light_tree::Emitter;
-use crate::sampling::light_way::LightWay;
 use crate::sampling::sampler::uniform;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightTree};
 use crate::scene::light::light_table;
@@ -79,7 +79,7 @@ pub struct Lights {
     local_count: usize,
     /// How many groups they make.
     group_count: usize,
-    way: LightWay,
+    strategy: LightStrategy,
     table: AliasTable,
     /// The tree of several lights inside the scene, where they may be chosen by it or by cells, which are
     /// learned by its help. Lights at infinity have the
@@ -162,16 +162,16 @@ impl Lights {
         let environment_light = sources.iter().position(|source| *source == LightSource::Environment);
         let first_portal = sources.iter().position(|source| matches!(source, LightSource::Portal(_))).unwrap_or(sources.len());
         let sampling = scene.render.light_sampling;
-        let (way, group_count) = (LightWay::of(scene.render.light_choice, &sampler), sampler.group_count());
-        let has_tree = way != LightWay::Power && local_count > 1;
+        let (strategy, group_count) = (LightStrategy::of(scene.render.light_choice, &sampler), sampler.group_count());
+        let has_tree = strategy != LightStrategy::Power && local_count > 1;
         let tree = has_tree.then(|| LightTree::new(&emitters(scene, world, &indices, &surfaces), sampler.table_at_infinity()));
         let table = sampler.table();
-        let cells = (way == LightWay::Cells).then(|| LightCellChoice::new(table.clone()));
+        let cells = (strategy == LightStrategy::Cells).then(|| LightCellChoice::new(table.clone()));
         Self {
             lights,
             local_count,
             group_count,
-            way,
+            strategy,
             table,
             tree,
             cells,
@@ -197,9 +197,9 @@ impl Lights {
 
     /// The light that 32 random bits choose at a point, and the probability of that.
     fn choose(&self, from: LightSampleContext, bits: u32) -> (usize, f64) {
-        match (self.way, &self.cells, &self.tree) {
-            (LightWay::Cells, Some(cells), _) => cells.choose(from, bits),
-            (LightWay::Tree, _, Some(tree)) => tree.choose(from.point, bits),
+        match (self.strategy, &self.cells, &self.tree) {
+            (LightStrategy::Cells, Some(cells), _) => cells.choose(from, bits),
+            (LightStrategy::Tree, _, Some(tree)) => tree.choose(from.point, bits),
             _ => {
                 let light = self.table.choose(bits);
                 (light, self.table.pmf[light])
@@ -220,9 +220,9 @@ impl Lights {
 
     /// The probability with which a light is chosen at a point.
     fn probability(&self, from: LightSampleContext, light: usize) -> f64 {
-        match (self.way, &self.cells, &self.tree) {
-            (LightWay::Cells, Some(cells), _) => cells.probability(from, light),
-            (LightWay::Tree, _, Some(tree)) if light < self.local_count => tree.probability(from.point, light),
+        match (self.strategy, &self.cells, &self.tree) {
+            (LightStrategy::Cells, Some(cells), _) => cells.probability(from, light),
+            (LightStrategy::Tree, _, Some(tree)) if light < self.local_count => tree.probability(from.point, light),
             _ => self.table.pmf[light],
         }
     }
@@ -257,13 +257,13 @@ impl Lights {
     }
 
     /// Chooses lights in another way, out of those that were made ready.
-    pub fn set_way(&mut self, way: LightWay) {
-        self.way = way;
+    pub fn set_strategy(&mut self, strategy: LightStrategy) {
+        self.strategy = strategy;
     }
 
     /// How lights are chosen.
-    pub fn way(&self) -> LightWay {
-        self.way
+    pub fn strategy(&self) -> LightStrategy {
+        self.strategy
     }
 
     /// Some light goes straight through surfaces of this material.
