@@ -60,7 +60,7 @@ pub struct Batch<'a> {
     pub selection: Option<&'a [bool]>,
     /// Which columns take part; None: all of them. A renderer on a GPU must have been made for it as for a selection.
     pub columns: Option<(u32, u32)>,
-    /// No sweep over the film begins that is expected to end later, but for the first. Paths that run on long after it are given up.
+    /// No iteration over the film begins that is expected to end later, but for the first. Paths that run on long after it are given up.
     pub deadline: Option<Instant>,
     /// How far an earlier render of the same batch was, from where this one goes on.
     pub resume: Option<&'a BatchState>,

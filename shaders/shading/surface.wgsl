@@ -38,9 +38,9 @@ struct Surface {
     // The directions in which texture coordinates grow, of any length, with TANGENTS; 0 where there are none.
     along_u: vec3<f32>,
     along_v: vec3<f32>,
-    // With NORMAL_SHADOWING, the shading normal before a map bent it, if it shadows the bent one; else 0.
-    unbent_normal: vec3<f32>,
-    // With COAT_NORMALS, the shading normal before a map bent it, on the front side and of any length.
+    // With NORMAL_SHADOWING, the shading normal before a map perturbed it, if it shadows the perturbed one; else 0.
+    unperturbed_normal: vec3<f32>,
+    // With COAT_NORMALS, the shading normal before a map perturbed it, on the front side and of any length.
     coat_normal: vec3<f32>,
     // With COAT_NORMALS and SECOND_UVS, the directions in which second texture coordinates grow; those of the first where there is one set.
     second_along_u: vec3<f32>,
@@ -161,9 +161,9 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         surface.uv = texture_coordinates(kind, first, uv, point.uv);
     }
 
-    // The shading normal, and what it was before a map bent it.
-    if HAS_NORMAL_SHADOWING && shadows_bent_normals(surface.material) {
-        surface.unbent_normal = shading_normal_towards(own_normal, surface.facing_normal, wo);
+    // The shading normal, and what it was before a map perturbed it.
+    if HAS_NORMAL_SHADOWING && shadows_perturbed_normals(surface.material) {
+        surface.unperturbed_normal = shading_normal_towards(own_normal, surface.facing_normal, wo);
     }
     if HAS_COAT_NORMALS {
         surface.coat_normal = select(own_normal, point.normal, dot(own_normal, own_normal) == 0.0);
@@ -172,8 +172,8 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         own_normal = mapped_normal(surface.material, kind, first, own_normal, point, surface.uv);
     }
     surface.shading_normal = shading_normal_towards(own_normal, surface.facing_normal, wo);
-    if HAS_NORMAL_MIRRORING && mirrors_bent_normals(surface.material) {
-        surface.shading_normal = mirrored_normal_towards(own_normal, surface.unbent_normal, surface.facing_normal, wo);
+    if HAS_NORMAL_MIRRORING && mirrors_perturbed_normals(surface.material) {
+        surface.shading_normal = mirrored_normal_towards(own_normal, surface.unperturbed_normal, surface.facing_normal, wo);
     }
     if HAS_TANGENTS {
         let tangents = shape_tangents(kind, first, point);

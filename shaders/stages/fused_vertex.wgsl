@@ -105,7 +105,7 @@ fn trace_vertex(
             }
             shadow = no_shadow_ray();
             if goes_on {
-                shadow = further_shadow_ray(shading.lit, number);
+                shadow = further_shadow_ray(shading.shaded, number);
             }
             number++;
         }

@@ -34,7 +34,7 @@ fn shade(
         // The last word changes with every vertex of scenes that use it.
         if HAS_NULL_SURFACES || HAS_LIGHT_CELLS || any(shading.radiance != BLACK) {
             let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
-            path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices | path.lit_facing << 28u));
+            path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices | path.reference_facing << 28u));
         }
         if shading.alive {
             store_path(slot, path);
@@ -79,7 +79,7 @@ fn store_shadow_rays(index: u32, slot: u32, shading: Shading) -> u32 {
         if LIGHT_SAMPLES == 1u || number >= shading.light_samples {
             break;
         }
-        shadow = further_shadow_ray(shading.lit, number);
+        shadow = further_shadow_ray(shading.shaded, number);
     }
     if LIGHT_SAMPLES > 1u {
         shadow_rays[SHADOW_RADIANCE + index].w = bitcast<f32>(rays);

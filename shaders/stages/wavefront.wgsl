@@ -48,10 +48,10 @@ fn load_path(slot: u32) -> Path {
     if HAS_NULL_SURFACES || HAS_LIGHT_CELLS {
         let vertices_and_facing = bitcast<u32>(path_state[PLANE_RADIANCE + slot].w);
         path.null_vertices = vertices_and_facing & 0x0fffffffu;
-        path.lit_facing = vertices_and_facing >> 28u;
+        path.reference_facing = vertices_and_facing >> 28u;
     }
     if HAS_TRANSPARENT_SHADOWS {
-        path.lit_from = path_state[PLANE_LIT_FROM + slot].xyz;
+        path.reference_point = path_state[PLANE_REFERENCE_POINT + slot].xyz;
     }
     if HAS_MEDIA {
         let around = path_state[PLANE_MEDIA + slot];
@@ -68,7 +68,7 @@ fn store_path(slot: u32, path: Path) {
     path_state[PLANE_DIRECTION + slot] = vec4<f32>(path.ray.direction, path.pdf_solid_angle);
     path_state[PLANE_THROUGHPUT + slot] = vec4<f32>(path.throughput, path.roulette_scale);
     if HAS_TRANSPARENT_SHADOWS {
-        path_state[PLANE_LIT_FROM + slot] = vec4<f32>(path.lit_from, 0.0);
+        path_state[PLANE_REFERENCE_POINT + slot] = vec4<f32>(path.reference_point, 0.0);
     }
     if HAS_MEDIA {
         path_state[PLANE_MEDIA + slot] = vec4<f32>(bitcast<vec2<f32>>(path.media), path.way_before, 0.0);

@@ -103,7 +103,7 @@ pub fn measure(
     say: &mut dyn FnMut(&str),
 ) -> Result<SceneConvergence, BenchError> {
     let settings = options.axes.variants(&scene.render);
-    // Its absence is told before anything is rendered.
+    // Its absence is reported before anything is rendered.
     let library = if options.axes.denoise.contains(&true) { Some(Rc::new(Library::open()?)) } else { None };
     let reference = reference(scene, &settings[0], options, devices, observer, say)?;
     let mut names = Vec::new();

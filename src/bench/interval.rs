@@ -21,7 +21,7 @@ pub struct Interval {
 /// The position of an interval relative to a value, such as 1 for a ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub enum IntervalVerdict {
     /// The whole interval lies below.
     Less,
     /// The whole interval lies above.
@@ -32,7 +32,7 @@ pub enum Verdict {
     TooFewRuns,
 }
 
-impl Verdict {
+impl IntervalVerdict {
     /// The verdict in words.
     pub fn label(self) -> &'static str {
         match self {
@@ -70,15 +70,15 @@ impl Interval {
     }
 
     /// The position of the interval relative to `value`.
-    pub fn verdict(&self, value: f64) -> Verdict {
+    pub fn verdict(&self, value: f64) -> IntervalVerdict {
         if self.confidence < CONFIDENCE {
-            Verdict::TooFewRuns
+            IntervalVerdict::TooFewRuns
         } else if self.high < value {
-            Verdict::Less
+            IntervalVerdict::Less
         } else if self.low > value {
-            Verdict::More
+            IntervalVerdict::More
         } else {
-            Verdict::InsideTheNoise
+            IntervalVerdict::InsideTheNoise
         }
     }
 
@@ -145,7 +145,7 @@ impl Spread {
 pub struct Ratio {
     #[serde(flatten)]
     pub interval: Interval,
-    pub verdict: Verdict,
+    pub verdict: IntervalVerdict,
 }
 
 impl Ratio {
@@ -184,10 +184,10 @@ mod tests {
 
     #[test]
     fn few_values_decide_nothing() {
-        assert_eq!(Interval::of_median(&[2.0, 2.0, 2.0]).verdict(1.0), Verdict::TooFewRuns);
-        assert_eq!(Interval::of_median(&[2.0; 6]).verdict(1.0), Verdict::More);
-        assert_eq!(Interval::of_median(&[]).verdict(1.0), Verdict::TooFewRuns);
-        assert_eq!(Interval::of_mean(&[2.0]).verdict(1.0), Verdict::InsideTheNoise);
+        assert_eq!(Interval::of_median(&[2.0, 2.0, 2.0]).verdict(1.0), IntervalVerdict::TooFewRuns);
+        assert_eq!(Interval::of_median(&[2.0; 6]).verdict(1.0), IntervalVerdict::More);
+        assert_eq!(Interval::of_median(&[]).verdict(1.0), IntervalVerdict::TooFewRuns);
+        assert_eq!(Interval::of_mean(&[2.0]).verdict(1.0), IntervalVerdict::InsideTheNoise);
     }
 
     /// About 95 % of intervals at 95 % hold the truth, whatever the distribution; the bound is four standard
@@ -195,20 +195,23 @@ mod tests {
     #[test]
     fn intervals_hold_the_truth_as_often_as_they_say() {
         let trials = 2000;
-        let mut held = [0.0, 0.0];
+        let mut covered = [0.0, 0.0];
         let mut expected = 0.0;
         for seed in 0..trials {
             let mut random = SplitMix64::new(seed << 20);
             let normal: Vec<f64> = (0..9).map(|_| 5.0 + random.normal()).collect();
             let skewed: Vec<f64> = (0..9).map(|_| random.normal().exp()).collect();
             let median = Interval::of_median(&skewed);
-            held[0] += f64::from(u8::from(Interval::of_mean(&normal).contains(5.0)));
-            held[1] += f64::from(u8::from(median.contains(1.0)));
+            covered[0] += f64::from(u8::from(Interval::of_mean(&normal).contains(5.0)));
+            covered[1] += f64::from(u8::from(median.contains(1.0)));
             expected = median.confidence;
         }
         let trials = trials as f64;
-        for (held, expected) in [(held[0], CONFIDENCE), (held[1], expected)] {
-            assert!((held / trials - expected).abs() < 4.0 * (expected * (1.0 - expected) / trials).sqrt(), "{held} of {trials}");
+        for (covered, expected) in [(covered[0], CONFIDENCE), (covered[1], expected)] {
+            assert!(
+                (covered / trials - expected).abs() < 4.0 * (expected * (1.0 - expected) / trials).sqrt(),
+                "{covered} of {trials}"
+            );
         }
     }
 }

@@ -121,7 +121,7 @@ pub fn observe_schedule(
             for turn in 0..subjects.len() {
                 let setting = (turn + replication as usize + level) % subjects.len();
                 step(&format!("replication {} of {}", replication + 1, schedule.replications));
-                let place = Place { setting, level, replication };
+                let place = RunIndex { setting, level, replication };
                 match observe(subjects[setting].as_mut(), reference, schedule, place, &mut all[setting]) {
                     Err(BenchError::Interrupted) if replication >= 2 => {
                         return Ok((complete(all, replication as usize), true));
@@ -136,7 +136,7 @@ pub fn observe_schedule(
 
 /// The position of a picture in the measurement.
 #[derive(Clone, Copy)]
-struct Place {
+struct RunIndex {
     setting: usize,
     level: usize,
     replication: u32,
@@ -146,7 +146,7 @@ fn observe(
     subject: &mut dyn Subject,
     reference: &Reference,
     schedule: &SampleSchedule,
-    place: Place,
+    place: RunIndex,
     into: &mut Observations,
 ) -> Result<(), BenchError> {
     let seed = schedule.seed_of(place.setting, place.level, place.replication);

@@ -133,8 +133,8 @@ mod tests {
         let row = Setting::find("light_samples").expect("a setting");
         let counts = [1, 4].map(|count| row.number(count).expect("a possible number"));
         let settings = Axes { settings: vec![counts.to_vec()], ..Axes::default() }.variants(&RenderSettings::default());
-        let told: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.render.light_samples)).collect();
-        assert_eq!(told, [("light_samples 1", 1.into()), ("light_samples 4", 4.into())]);
+        let found: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.render.light_samples)).collect();
+        assert_eq!(found, [("light_samples 1", 1.into()), ("light_samples 4", 4.into())]);
     }
 
     #[test]
@@ -142,8 +142,8 @@ mod tests {
         let samplers = names("sampler", &["halton", "sobol"]);
         let axes = Axes { settings: vec![samplers], denoise: vec![false, true], ..Axes::default() };
         let settings = axes.variants(&RenderSettings::default());
-        let told: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.denoise)).collect();
-        assert_eq!(told, [("halton, raw", false), ("halton, denoised", true), ("sobol, raw", false), ("sobol, denoised", true)]);
+        let found: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.denoise)).collect();
+        assert_eq!(found, [("halton, raw", false), ("halton, denoised", true), ("sobol, raw", false), ("sobol, denoised", true)]);
     }
 
     #[test]

@@ -29,7 +29,7 @@ const TREELET: usize = 64;
 
 /// A part that is moved as a whole.
 #[derive(Debug, Clone, Default)]
-pub struct Part {
+pub struct MovingPart {
     /// Places of its boxes among all.
     pub members: Vec<u32>,
     /// The pose in which its tree is built; None for the boxes as they are.
@@ -94,12 +94,12 @@ fn are_same(some: &[Aabb], others: &[Aabb]) -> bool {
 }
 
 /// A tree over boxes that move in parts, which together have each box once.
-pub fn build_of_parts(boxes: &[Aabb], parts: &[Part], kept: &KeptTrees, build: Build<'_>) -> Bvh2 {
-    let of_part = |part: &Part| {
+pub fn build_of_parts(boxes: &[Aabb], parts: &[MovingPart], kept: &KeptTrees, build: Build<'_>) -> Bvh2 {
+    let of_part = |part: &MovingPart| {
         let own: Vec<Aabb> = part.members.iter().map(|&index| boxes[index as usize]).collect();
         fitted(&own, part.reference.as_ref(), kept, build)
     };
-    let (parts, trees): (Vec<&Part>, Vec<Arc<Bvh2>>) =
+    let (parts, trees): (Vec<&MovingPart>, Vec<Arc<Bvh2>>) =
         parts.par_iter().filter(|part| !part.members.is_empty()).map(|part| (part, of_part(part))).unzip();
     let treelets: Vec<(usize, usize)> = match trees.len() {
         // Nothing has to be told apart.

@@ -5,14 +5,14 @@ use std::path::Path;
 
 use gpt::choice::Choice;
 use gpt::compare::flip::{PIXELS_PER_DEGREE, flip};
-use gpt::compare::{Comparison, Metric, Picture, TileSettings, compare, compare_paired};
+use gpt::compare::{Comparison, ImageView, Metric, TileSettings, compare, compare_paired};
 use gpt::output::{AtomicFile, Channels, Image, PictureKind, read_picture};
 use serde::Serialize;
 
 use super::arguments::CompareArguments;
 use super::bench::command;
 use super::denoise::{BIAS_KEY, DENOISER_KEY};
-use super::difference_page::{self, Section, Shown};
+use super::difference_page::{self, PicturePair, Section};
 use super::exit::{Exit, Failure};
 use super::{outputs, terminal};
 
@@ -23,7 +23,7 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// The JSON that `--json` prints.
 #[derive(Serialize)]
-struct Verdict<'a> {
+struct ComparisonReport<'a> {
     equal: bool,
     tolerance: f64,
     metric: Option<Metric>,
@@ -50,7 +50,7 @@ pub fn run(arguments: &CompareArguments) -> Result<Exit, Failure> {
         AtomicFile::write(path, page(arguments, (&picture, &reference), &comparison, equal)?.as_bytes())?;
     }
     if arguments.json {
-        terminal::answer_json(&Verdict {
+        terminal::answer_json(&ComparisonReport {
             equal,
             tolerance,
             metric: arguments.metric,
@@ -70,7 +70,7 @@ fn page(
     comparison: &Comparison,
     equal: bool,
 ) -> Result<String, Failure> {
-    let pictures = [reference, picture].map(|image| Picture { width: image.width, pixels: &image.pixels });
+    let pictures = [reference, picture].map(|image| ImageView { width: image.width, pixels: &image.pixels });
     let settings = TileSettings { tile: PAGE_TILE, ..TileSettings::default() };
     let tiles = compare_paired(pictures[0], pictures[1], &settings).map_err(|error| Failure::BadScene(error.to_string()))?;
     let map = flip(picture, reference, PIXELS_PER_DEGREE)?;
@@ -82,7 +82,7 @@ fn page(
         facts: metrics.chain([format!("ꟻLIP {:.5}", map.mean())]).collect(),
         findings: tiles.rejected().map(|finding| (finding.region, finding.to_string())).collect(),
         commands: vec![command()],
-        shown: Some(Shown { labels: ["reference", "picture"], images: [reference, picture], tiles: &tiles, flip: &map }),
+        shown: Some(PicturePair { labels: ["reference", "picture"], images: [reference, picture], tiles: &tiles, flip: &map }),
     };
     let method = "Tiles are judged by Student's t on the differences of their pixels, with a false alarm in a hundred pages.";
     Ok(difference_page::page("gpt compare", &command(), method, &[section]))

@@ -11,7 +11,7 @@ use super::frames::Span;
 /// Time between two lines.
 const INTERVAL: Duration = Duration::from_secs(1);
 
-/// How progress is told on standard output.
+/// How progress is printed on standard output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ProgressFormat {
     /// A line of words with a percentage

@@ -43,7 +43,7 @@ pub fn run(arguments: &MergeArguments) -> Result<Exit, Failure> {
     let outputs = output_formats(&arguments.outputs, beside.iter().map(PathBuf::as_path), parts)?;
     if arguments.denoise {
         denoise::raw_output(&outputs)?;
-        // Its absence is told before anything is read.
+        // Its absence is reported before anything is read.
         Library::open()?;
     }
     let parts = arguments.parts.iter().map(|path| PartHeader::read(path)).collect::<Result<Vec<_>, _>>()?;

@@ -27,7 +27,7 @@ struct Job {
     width: u32,
     height: u32,
     spp: u32,
-    /// The device whose memory is told.
+    /// The device whose memory is reported.
     device: String,
     chunks: Vec<Chunk>,
     /// None where chunks are whole frames.

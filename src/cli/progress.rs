@@ -14,7 +14,7 @@ use super::{interrupt, terminal};
 
 /// Time between two plain lines.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
-/// Preparations are told of in a plain line if they take longer.
+/// Preparations are reported in a plain line if they take longer.
 const LONG_PREPARATION: Duration = Duration::from_secs(3);
 /// The name of the phase before the first samples; the driver's compiler takes most of it.
 const PREPARING: &str = "preparing the scene and compiling kernels";
@@ -26,13 +26,13 @@ const NARROWEST_BAR: usize = 8;
 
 /// Shows progress to people and to other programs, and passes on the wish to stop.
 pub struct Progress {
-    shown: Shown,
+    shown: ProgressDisplay,
     machine: Option<Mutex<(MachineProgress, Pace)>>,
     span: Option<Span>,
 }
 
 /// The display that people see.
-enum Shown {
+enum ProgressDisplay {
     Hidden,
     Bar(ProgressBar, Mutex<Pace>),
     Lines(Mutex<Lines>),
@@ -53,7 +53,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Samples per second since they were first told of; None at that time.
+    /// Samples per second since they were first reported; None at that time.
     fn rate(&mut self, done: u64) -> Option<f64> {
         let (since, before) = *self.first.get_or_insert_with(|| (Instant::now(), done));
         let seconds = since.elapsed().as_secs_f64();
@@ -67,7 +67,7 @@ impl Progress {
     /// `span`: which of several frames is rendered.
     pub fn of_frame(quiet: bool, format: Option<ProgressFormat>, span: Option<Span>) -> Self {
         let machine = format.map(|format| Mutex::new((MachineProgress::new(format, span), Pace::default())));
-        Self { shown: Shown::new(quiet), machine, span }
+        Self { shown: ProgressDisplay::new(quiet), machine, span }
     }
 
     /// Says to other programs that the last of several frames is over.
@@ -97,7 +97,7 @@ impl Progress {
     }
 }
 
-impl Shown {
+impl ProgressDisplay {
     fn new(quiet: bool) -> Self {
         if quiet {
             return Self::Hidden;
@@ -119,7 +119,7 @@ impl Shown {
     }
 }
 
-impl Shown {
+impl ProgressDisplay {
     fn progress(&self, done: u64, total: u64, span: Option<Span>) {
         let of_frame =
             span.map_or_else(String::new, |Span { frame, index, count }| format!("frame {frame} ({} of {count}), ", index + 1));

@@ -48,7 +48,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         if !outputs.is_empty() {
             denoise::raw_output(&outputs)?;
         }
-        // Its absence is told before anything is rendered. Parts are denoised once they are joined.
+        // Its absence is reported before anything is rendered. Parts are denoised once they are joined.
         if !arguments.estimate.is_part() {
             Library::open()?;
         }

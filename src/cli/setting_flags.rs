@@ -106,7 +106,7 @@ mod tests {
         }
     }
 
-    fn told(assignments: &[Assignment]) -> Vec<(&str, String)> {
+    fn given_settings(assignments: &[Assignment]) -> Vec<(&str, String)> {
         assignments.iter().map(|one| (one.setting().name, one.value().to_string())).collect()
     }
 
@@ -115,7 +115,7 @@ mod tests {
         for setting in SETTINGS {
             let [value, _] = two_values(setting);
             let SettingFlags(given) = matches(&[setting.flag, &value]);
-            assert_eq!(told(&given), [(setting.name, value)]);
+            assert_eq!(given_settings(&given), [(setting.name, value)]);
         }
     }
 
@@ -124,7 +124,7 @@ mod tests {
         for setting in SETTINGS.iter().filter(|setting| setting.compared) {
             let [first, second] = two_values(setting);
             let SettingAxes(axes) = matches(&[setting.flag, &format!("{first},{second}")]);
-            assert_eq!(told(&axes.concat()), [(setting.name, first), (setting.name, second)]);
+            assert_eq!(given_settings(&axes.concat()), [(setting.name, first), (setting.name, second)]);
         }
     }
 }

@@ -133,7 +133,7 @@ fn keep_verdict(device: &Device, passed: bool) {
     }
 }
 
-/// The reference is what every device is held against. By itself it can be held against closed forms.
+/// The reference is what every device is compared with. By itself it can be compared with closed forms.
 fn verify_reference(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     if arguments.scene.is_some() || arguments.pixel.is_some() || arguments.plant.is_some() {
         return Err(Failure::usage(

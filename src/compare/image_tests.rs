@@ -23,7 +23,7 @@ use super::moments::Moments;
 
 /// A picture's pixels, row by row from the top: linear RGB.
 #[derive(Debug, Clone, Copy)]
-pub struct Picture<'a> {
+pub struct ImageView<'a> {
     pub width: u32,
     pub pixels: &'a [[f32; 3]],
 }
@@ -131,7 +131,7 @@ struct Estimate {
 
 /// Compares two pictures made from the same random numbers. The pixels of a region are the sample, so a region of a single pixel is
 /// judged by the margin alone.
-pub fn compare_paired(first: Picture, second: Picture, settings: &TileSettings) -> Result<ImageComparison, ComparisonError> {
+pub fn compare_paired(first: ImageView, second: ImageView, settings: &TileSettings) -> Result<ImageComparison, ComparisonError> {
     let layout = Layout::of(&[first, second])?;
     Ok(layout.judge(settings, |region, channel| {
         let pairs = || layout.pixels(region).map(|i| (f64::from(first.pixels[i][channel]), f64::from(second.pixels[i][channel])));
@@ -149,14 +149,14 @@ pub fn compare_paired(first: Picture, second: Picture, settings: &TileSettings) 
 /// Compares two pictures made from independent random numbers. Beside each come the variances of its pixels' means (the variance of a
 /// sample over the number of samples), in the same order.
 pub fn compare_independent(
-    [first, first_variances]: [Picture; 2],
-    [second, second_variances]: [Picture; 2],
+    [first, first_variances]: [ImageView; 2],
+    [second, second_variances]: [ImageView; 2],
     settings: &TileSettings,
 ) -> Result<ImageComparison, ComparisonError> {
     let layout = Layout::of(&[first, first_variances, second, second_variances])?;
     Ok(layout.judge(settings, |region, channel| {
         let mean =
-            |picture: Picture| layout.pixels(region).map(|i| f64::from(picture.pixels[i][channel])).collect::<Moments>().mean();
+            |picture: ImageView| layout.pixels(region).map(|i| f64::from(picture.pixels[i][channel])).collect::<Moments>().mean();
         let variance = (mean(first_variances) + mean(second_variances)) / f64::from(region.width * region.height);
         Estimate { first: mean(first), second: mean(second), standard_error: variance.sqrt(), degrees_of_freedom: f64::INFINITY }
     }))
@@ -165,21 +165,21 @@ pub fn compare_independent(
 /// Variances of the means of a picture's pixels, in the order of its pixels, and how many degrees of freedom each of them has.
 #[derive(Debug, Clone, Copy)]
 pub struct Scatter<'a> {
-    pub variances: Picture<'a>,
+    pub variances: ImageView<'a>,
     pub degrees_of_freedom: f64,
 }
 
 /// Compares two pictures made from independent random numbers. The variances of their pixels' differences are the sums of all `scatter`.
 pub fn compare_measured(
-    [first, second]: [Picture; 2],
+    [first, second]: [ImageView; 2],
     scatter: &[Scatter],
     settings: &TileSettings,
 ) -> Result<ImageComparison, ComparisonError> {
-    let pictures: Vec<Picture> = [first, second].into_iter().chain(scatter.iter().map(|one| one.variances)).collect();
+    let pictures: Vec<ImageView> = [first, second].into_iter().chain(scatter.iter().map(|one| one.variances)).collect();
     let layout = Layout::of(&pictures)?;
     Ok(layout.judge(settings, |region, channel| {
         let mean =
-            |picture: Picture| layout.pixels(region).map(|i| f64::from(picture.pixels[i][channel])).collect::<Moments>().mean();
+            |picture: ImageView| layout.pixels(region).map(|i| f64::from(picture.pixels[i][channel])).collect::<Moments>().mean();
         let (mut variance, mut spread) = (0.0, 0.0);
         for one in scatter {
             for pixel in layout.pixels(region) {
@@ -197,8 +197,8 @@ pub fn compare_measured(
 
 /// Compares two sets of replications, each picture rendered with a seed of its own.
 pub fn compare_replications(
-    first: &[Picture],
-    second: &[Picture],
+    first: &[ImageView],
+    second: &[ImageView],
     settings: &TileSettings,
 ) -> Result<ImageComparison, ComparisonError> {
     if first.len() < 2 || second.len() < 2 {
@@ -206,8 +206,8 @@ pub fn compare_replications(
     }
     let layout = Layout::of(&[first, second].concat())?;
     Ok(layout.judge(settings, |region, channel| {
-        let means = |pictures: &[Picture]| -> Moments {
-            let mean = |picture: &Picture| {
+        let means = |pictures: &[ImageView]| -> Moments {
+            let mean = |picture: &ImageView| {
                 layout.pixels(region).map(|i| f64::from(picture.pixels[i][channel])).collect::<Moments>().mean()
             };
             pictures.iter().map(mean).collect()
@@ -226,10 +226,10 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    fn of(pictures: &[Picture]) -> Result<Self, ComparisonError> {
+    fn of(pictures: &[ImageView]) -> Result<Self, ComparisonError> {
         let [first, ..] = pictures else { return Err(ComparisonError::Sizes) };
         let height = first.pixels.len() / first.width.max(1) as usize;
-        let same = |picture: &Picture| picture.width == first.width && picture.pixels.len() == first.width as usize * height;
+        let same = |picture: &ImageView| picture.width == first.width && picture.pixels.len() == first.width as usize * height;
         match u32::try_from(height) {
             Ok(height) if height > 0 && pictures.iter().all(same) => Ok(Self { width: first.width, height }),
             _ => Err(ComparisonError::Sizes),

@@ -58,10 +58,10 @@ impl<'a> BatchSamples<'a> {
 /// Bands over which samples go together.
 pub struct Group {
     pub bands: Vec<BandSums>,
-    /// The first sample of the sweep under way, its number of samples (0: it is not begun), and how many of
+    /// The first sample of the iteration under way, its number of samples (0: it is not begun), and how many of
     /// the pixels, from the first, have them.
     pub next: u32,
-    pub sweep: u32,
+    pub iteration: u32,
     pub reached: u32,
 }
 
@@ -84,8 +84,9 @@ impl Group {
         };
         let bands = rows.clone().step_by(BAND_ROWS as usize).map(new_band).collect();
         let pixels = (rows.len() * width) as u32;
-        let (done, sweep, reached) = resume.map_or((0, 0, 0), |state| (state.done, state.sweep, state.reached.min(pixels)));
-        Self { bands, next: batch.range.start + done, sweep, reached }
+        let (done, iteration, reached) =
+            resume.map_or((0, 0, 0), |state| (state.done, state.iteration, state.reached.min(pixels)));
+        Self { bands, next: batch.range.start + done, iteration, reached }
     }
 
     /// The group as a state to go on from.
@@ -97,7 +98,7 @@ impl Group {
         BatchState {
             rows: first_row..self.bands.last().map_or(first_row, |band| band.first_row + band.rows),
             done: self.next - batch.range.start,
-            sweep: if self.reached > 0 { self.sweep } else { 0 },
+            iteration: if self.reached > 0 { self.iteration } else { 0 },
             reached: self.reached,
             film: Arc::new(film),
             tally,

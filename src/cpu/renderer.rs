@@ -16,7 +16,7 @@ use crate::reference::layer::LayerVisitor;
 use crate::reference::rounding::Rounding;
 use crate::reference::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::renderer::sink::{Sink, keep_between};
-use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_SWEEP, Tally};
+use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_ITERATION, Tally};
 use crate::renderer::{
     Batch, CAUTION, Change, Decision, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping,
 };
@@ -48,13 +48,13 @@ pub struct ReferenceRenderer {
 }
 
 /// Counts rays, and gives up paths that do not end when the render is to.
-struct Watched<'a> {
+struct PathLimiter<'a> {
     rays: u64,
     stopping: &'a Stopping<'a>,
     gave_up: Option<Ending>,
 }
 
-impl PathVisitor for Watched<'_> {
+impl PathVisitor for PathLimiter<'_> {
     fn ray(&mut self, _ray: &Ray) {
         self.rays += 1;
     }
@@ -127,9 +127,9 @@ impl ReferenceRenderer {
     fn decisions(&self) -> Vec<Decision> {
         let settings = &self.integrator.scene().render;
         let guided = self.integrator.guide().is_some();
-        let way = self.integrator.light_way();
+        let strategy = self.integrator.light_strategy();
         let Reasons { light_choice, light_samples, directions, .. } = &self.because;
-        let of_choice = light_choice.iter().map(|because| Decision::about_light_choice(way, because));
+        let of_choice = light_choice.iter().map(|because| Decision::about_light_choice(strategy, because));
         let of_lights =
             light_samples.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
         let of_directions = directions.iter().map(|because| Decision::about_directions(guided, because));
@@ -185,7 +185,7 @@ impl ReferenceRenderer {
     fn sample_pixel(&self, x: u32, y: u32, batch: &BatchSamples<'_>, points: &[SequencePoint], sum: &mut PixelSum) -> Counts {
         let sampling = &batch.sampling;
         let pixel = y.wrapping_mul(self.integrator.scene().film.size[0]).wrapping_add(x);
-        let mut watched = Watched { rays: 0, stopping: &batch.stopping, gave_up: None };
+        let mut limiter = PathLimiter { rays: 0, stopping: &batch.stopping, gave_up: None };
         let (mut samples, mut traced, mut non_finite) = (0, 0_u64, 0);
         let mut clamp = Clamp::new(self.integrator.scene().render.clamp, self.layer);
         let camera = self.integrator.view_axis();
@@ -193,7 +193,7 @@ impl ReferenceRenderer {
             let sampler = PathSampler::new(sampling, pixel, point);
             let mut radiance = Spectrum::BLACK;
             if let Some(layer) = self.layer {
-                let mut visitor = LayerVisitor::new(layer, camera, &mut watched);
+                let mut visitor = LayerVisitor::new(layer, camera, &mut limiter);
                 let found = clamp.darken(self.integrator.radiance(x, y, &sampler, &mut visitor));
                 let Some(value) = visitor.value(found) else {
                     traced += 1;
@@ -201,9 +201,9 @@ impl ReferenceRenderer {
                 };
                 radiance += value;
             } else {
-                radiance += clamp.darken(self.integrator.radiance(x, y, &sampler, &mut watched));
+                radiance += clamp.darken(self.integrator.radiance(x, y, &sampler, &mut limiter));
             }
-            if watched.gave_up.is_some() {
+            if limiter.gave_up.is_some() {
                 break;
             }
             (samples, traced) = (samples + 1, traced + 1);
@@ -217,7 +217,7 @@ impl ReferenceRenderer {
         }
         sum.samples += samples;
         let (clamped, clamped_units) = (clamp.samples, clamp.units());
-        Counts { samples: traced, rays: watched.rays, non_finite, clamped, clamped_units, gave_up: watched.gave_up }
+        Counts { samples: traced, rays: limiter.rays, non_finite, clamped, clamped_units, gave_up: limiter.gave_up }
     }
 
     /// One pass over a band: the samples `range` of the request, but for its first pixels, which have them.
@@ -248,10 +248,10 @@ impl ReferenceRenderer {
     fn next_samples(&self, pixels: usize, batch: &BatchSamples<'_>, first: u32) -> Range<u32> {
         let rate = if self.timed_seconds > 0.0 { self.timed_samples / self.timed_seconds } else { 0.0 };
         let fitting = rate * PASS_DURATION.as_secs_f64() / pixels.max(1) as f64;
-        first..first + (fitting as u32).clamp(1, MOST_SAMPLES_PER_SWEEP).min(batch.range.end - first)
+        first..first + (fitting as u32).clamp(1, MOST_SAMPLES_PER_ITERATION).min(batch.range.end - first)
     }
 
-    /// Samples that a sweep over so many pixels can have to end within the time.
+    /// Samples that an iteration over so many pixels can have to end within the time.
     fn samples_within(&self, pixels: usize, time: Duration) -> u32 {
         (time.as_secs_f64() * self.timed_samples / self.timed_seconds.max(1e-9) / pixels.max(1) as f64) as u32
     }
@@ -267,21 +267,21 @@ impl ReferenceRenderer {
         let largest = group.bands.iter().map(|band| band.pixels.len()).max().unwrap_or(0);
         let all = group.bands.iter().map(|band| band.pixels.len()).sum();
         while group.next < batch.range.end {
-            if group.sweep == 0 {
-                group.sweep = self.next_samples(largest, batch, group.next).len() as u32;
+            if group.iteration == 0 {
+                group.iteration = self.next_samples(largest, batch, group.next).len() as u32;
                 if let Some(time) = batch.stopping.time_left() {
                     let is_first = group.next == batch.range.start;
                     // Nothing is known of the speed of a render that goes on.
                     let fitting =
                         if is_first || self.timed_samples == 0.0 { 1 } else { self.samples_within(all, time.mul_f64(CAUTION)) };
                     if fitting == 0 {
-                        group.sweep = 0;
+                        group.iteration = 0;
                         return Ok(Some(Ending::OutOfTime));
                     }
-                    group.sweep = group.sweep.min(fitting);
+                    group.iteration = group.iteration.min(fitting);
                 }
             }
-            let ended = self.sweep(group, batch, progress, sink)?;
+            let ended = self.run_iteration(group, batch, progress, sink)?;
             if ended.is_some() {
                 return Ok(ended);
             }
@@ -289,15 +289,15 @@ impl ReferenceRenderer {
         Ok(None)
     }
 
-    /// Renders the rest of the sweep under way.
-    fn sweep(
+    /// Renders the rest of the iteration under way.
+    fn run_iteration(
         &mut self,
         group: &mut Group,
         batch: &BatchSamples<'_>,
         progress: &mut Progress<'_>,
         sink: &mut dyn Sink,
     ) -> Result<Option<Ending>, RenderError> {
-        let range = group.next..group.next + group.sweep;
+        let range = group.next..group.next + group.iteration;
         let is_first = range.start == batch.range.start;
         let mut before = 0;
         for index in 0..group.bands.len() {
@@ -324,7 +324,7 @@ impl ReferenceRenderer {
             group.reached = before as u32;
             let is_last_band = index + 1 == group.bands.len();
             if is_last_band {
-                (group.next, group.sweep, group.reached) = (range.end, 0, 0);
+                (group.next, group.iteration, group.reached) = (range.end, 0, 0);
             }
             if is_last_band && range.end == batch.range.end {
                 return Ok(None);
@@ -448,7 +448,7 @@ impl Renderer for ReferenceRenderer {
             let mut group = Group::new(first_row..end, &samples, resume);
             let ended = self.render_group(&mut group, &samples, &mut progress, sink)?;
             let bands = group.bands;
-            // Earlier parts of a picture cannot know that a later one ends in the middle of a sweep.
+            // Earlier parts of a picture cannot know that a later one ends in the middle of an iteration.
             // Pixels of a layer of surfaces count the samples that met something.
             let counts_hits = self.layer.is_some_and(KernelLayer::is_of_surfaces);
             let with_counts = ((end - first_row) as usize) < rows.len() || counts_hits || !are_even(&bands, &samples, width);

@@ -5,12 +5,12 @@ use serde::Serialize;
 
 use super::raw::Raw;
 use crate::compare::image_tests::ComparisonError;
-use crate::compare::{Finding, ImageComparison, Picture, Scatter, TileSettings, compare_measured, compare_paired};
+use crate::compare::{Finding, ImageComparison, ImageView, Scatter, TileSettings, compare_measured, compare_paired};
 use crate::output::Image;
 
 /// Pixels along a tile's side.
 const TILE: u32 = 16;
-/// A change of a tile's energy, as a share, that is told even where noise may be all of it: of a small bright thing few samples know much, so the noise
+/// A change of a tile's energy, as a share, that is reported even where noise may be all of it: of a small bright thing few samples know much, so the noise
 /// that is expected is as large as what the thing is worth, and would explain that it is gone.
 const NOTABLE: f64 = 0.1;
 
@@ -40,10 +40,10 @@ impl Bias {
     /// Pictures of different sizes.
     pub fn of(raw: &Raw, denoised: &Image) -> Result<Self, ComparisonError> {
         let settings = TileSettings { tile: TILE, ..TileSettings::default() };
-        let pictures = [&raw.picture, denoised].map(|image| Picture { width: image.width, pixels: &image.pixels });
+        let pictures = [&raw.picture, denoised].map(|image| ImageView { width: image.width, pixels: &image.pixels });
         let compared = match &raw.variances {
             Some(variances) => {
-                let variances = Picture { width: raw.picture.width, pixels: variances };
+                let variances = ImageView { width: raw.picture.width, pixels: variances };
                 compare_measured(pictures, &[Scatter { variances, degrees_of_freedom: f64::INFINITY }], &settings)?
             }
             None => compare_paired(pictures[0], pictures[1], &settings)?,
@@ -117,12 +117,12 @@ mod tests {
         (Raw { picture: of(noisy), albedo: None, normal: None, variances, placed: None }, of(smooth))
     }
 
-    /// A lamp of which each of its pixels has a sample or two: noise would explain that it is gone, and that it is gone is told.
+    /// An emitter of which each of its pixels has a sample or two: noise would explain that it is gone, and that it is gone is reported.
     #[test]
-    fn a_small_bright_thing_that_is_gone_is_told_of() {
+    fn a_small_bright_thing_that_is_gone_is_reported() {
         let (mut raw, denoised) = pictures(1.0, true);
-        let lamp = [20 * SIDE as usize + 20, 20 * SIDE as usize + 21];
-        for pixel in lamp {
+        let emitter = [20 * SIDE as usize + 20, 20 * SIDE as usize + 21];
+        for pixel in emitter {
             // One of 16 samples met it, so the deviation of the mean is as large as the mean.
             raw.picture.pixels[pixel] = [500.0; 3];
             raw.variances.as_mut().expect("they are there")[pixel] = [500.0 * 500.0; 3];
@@ -130,7 +130,7 @@ mod tests {
         let bias = Bias::of(&raw, &denoised).expect("one size");
         assert_eq!((bias.biased_tiles, bias.undecided_tiles), (0, 1), "{bias}");
         assert!(bias.largest_undecided < -0.8 && bias.to_string().contains("in 1 the change is above 10 % (-8"), "{bias}");
-        // The control: without the lamp, nothing is told.
+        // The control: without the emitter, nothing is reported.
         let (raw, denoised) = pictures(1.0, true);
         assert!(!Bias::of(&raw, &denoised).expect("one size").to_string().contains("above"));
     }

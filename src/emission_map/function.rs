@@ -1,4 +1,4 @@
-//! Lamps that emit by whatever textures give: patterns, products, colours of vertices, and blends. It is looked at in points alone.
+//! Area lights that emit by whatever textures give: patterns, products, colours of vertices, and blends. It is looked at in points alone.
 
 use glam::DVec2;
 
@@ -10,7 +10,7 @@ use crate::texture::{self, Coordinates};
 /// Cells along either side of a square, and points in each along either side.
 const CELLS: [f64; 2] = [8.0, 256.0];
 const POINTS: u32 = 2;
-/// Points that all cells of a lamp, or all triangles of a scene's lamps, are looked at in, as often as materials are.
+/// Points that all cells of an area light, or all triangles of a scene's area lights, are looked at in, as often as materials are.
 const MOST_POINTS: f64 = 1_048_576.0;
 /// Rows of pieces in a triangle.
 const MOST_ROWS: f64 = 32.0;

@@ -2,8 +2,8 @@
 //! whole shapes are drawn.
 
 mod function;
+mod image;
 mod level;
-mod picture;
 mod unrolled;
 
 use std::cell::OnceCell;
@@ -15,10 +15,10 @@ use crate::sampling::HierarchicalWarp;
 use crate::scene::{MaterialId, MaterialKind, Scene};
 use crate::texture::Coordinates;
 use function::Function;
-use picture::Picture;
+use image::EmissionImage;
 pub use unrolled::Unrolled;
 
-/// The mean of the squared luminance over the squared mean from which on points are drawn by luminance. Shapes that are lit more evenly are
+/// The mean of the squared luminance over the squared mean from which on points are drawn by luminance. Shapes that emit more evenly are
 /// drawn by solid angle, which counts for more where they are near.
 const LEAST_CONTRAST: f64 = 1.5;
 
@@ -30,14 +30,14 @@ pub struct EmissionMaps<'a> {
 
 #[derive(Debug, Clone)]
 struct EmissionMap<'a> {
-    shown: Shown<'a>,
+    shown: EmissionSource<'a>,
     evenly: OnceCell<Whole>,
     sphere: OnceCell<Whole>,
 }
 
 #[derive(Debug, Clone)]
-enum Shown<'a> {
-    Picture(Picture),
+enum EmissionSource<'a> {
+    Image(EmissionImage),
     Function(Function<'a>),
 }
 
@@ -50,9 +50,9 @@ struct Whole {
     warp: Option<Arc<HierarchicalWarp>>,
 }
 
-/// A piece of a lamp's surface.
+/// A piece of an area light's surface.
 #[derive(Debug, Clone, Copy)]
-pub enum LampPart {
+pub enum EmitterPart {
     /// A triangle, with the texture coordinates at its corners.
     Triangle([Coordinates; 3]),
     Whole(Unrolled),
@@ -70,23 +70,23 @@ impl<'a> EmissionMaps<'a> {
         if !(0..emits.len()).any(shows) {
             return Self::default();
         }
-        let lamps = scene.shapes.iter().filter(|shape| shape.materials().any(shows));
-        let parts: usize = lamps.map(|shape| shape.geometry.faces().max(1)).sum();
+        let emitters = scene.shapes.iter().filter(|shape| shape.materials().any(shows));
+        let parts: usize = emitters.map(|shape| shape.geometry.faces().max(1)).sum();
         let of = |id: MaterialId| {
-            let picture = Picture::of(scene, &scene.materials[id], parts).map(Shown::Picture);
-            let shown = picture.or_else(|| Function::of(scene, id, parts).map(Shown::Function))?;
+            let picture = EmissionImage::of(scene, &scene.materials[id], parts).map(EmissionSource::Image);
+            let shown = picture.or_else(|| Function::of(scene, id, parts).map(EmissionSource::Function))?;
             Some(EmissionMap { shown, evenly: OnceCell::new(), sphere: OnceCell::new() })
         };
         Self { maps: (0..emits.len()).map(|id| if shows(id) { of(id) } else { None }).collect() }
     }
 
-    /// The mean luminance that a material sends out from a part of a lamp, positive where anything of it shines. None: that of the whole material
+    /// The mean luminance that a material sends out from a part of an area light, positive where anything of it shines. None: that of the whole material
     /// is all that is known.
-    pub fn luminance(&self, material: MaterialId, part: &LampPart) -> Option<f64> {
+    pub fn luminance(&self, material: MaterialId, part: &EmitterPart) -> Option<f64> {
         let map = self.map(material)?;
         match part {
-            LampPart::Triangle(corners) => map.shown.mean_over_triangle(corners),
-            LampPart::Whole(unrolled) => map.whole(*unrolled).luminance,
+            EmitterPart::Triangle(corners) => map.shown.mean_over_triangle(corners),
+            EmitterPart::Whole(unrolled) => map.whole(*unrolled).luminance,
         }
     }
 
@@ -110,10 +110,10 @@ impl EmissionMap<'_> {
     }
 }
 
-impl Shown<'_> {
+impl EmissionSource<'_> {
     fn mean_over_triangle(&self, corners: &[Coordinates; 3]) -> Option<f64> {
         match self {
-            Self::Picture(picture) => picture.mean_over_triangle(corners),
+            Self::Image(picture) => picture.mean_over_triangle(corners),
             Self::Function(function) => Some(function.floor() + function.mean_over_triangle(corners)),
         }
     }
@@ -121,14 +121,14 @@ impl Shown<'_> {
     /// The mean over the cell of the unit square from its lower to its upper corner, in one of so many rows.
     fn mean_over_cell(&self, [low, high]: [DVec2; 2], rows: u32, unrolled: Unrolled) -> Option<f64> {
         match self {
-            Self::Picture(picture) => picture.mean_over(&[low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]),
+            Self::Image(picture) => picture.mean_over(&[low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]),
             Self::Function(function) => Some(function.mean_over_cell([low, high], rows, unrolled)),
         }
     }
 
     fn cells(&self) -> [u32; 2] {
         match self {
-            Self::Picture(picture) => picture.cells(),
+            Self::Image(picture) => picture.cells(),
             Self::Function(function) => function.cells(),
         }
     }
@@ -137,14 +137,14 @@ impl Shown<'_> {
     /// nothing of it shines: an even share would be noise that even sequences do not have.
     fn floor(&self) -> f64 {
         match self {
-            Self::Picture(_) => 0.0,
+            Self::Image(_) => 0.0,
             Self::Function(function) => function.floor(),
         }
     }
 }
 
 impl Whole {
-    fn of(shown: &Shown, unrolled: Unrolled) -> Self {
+    fn of(shown: &EmissionSource, unrolled: Unrolled) -> Self {
         let [columns, rows] = shown.cells();
         let size = DVec2::new(columns.into(), rows.into());
         let of_cell = |(row, column): (u32, u32)| {

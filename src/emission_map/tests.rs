@@ -9,12 +9,12 @@ use crate::scene::{
 use crate::spectrum::Spectrum;
 
 /// A scene of one material that emits what an image shows.
-fn lamp(image: ImageTexture, rotation_degrees: f64) -> Scene {
+fn textured_light(image: ImageTexture, rotation_degrees: f64) -> Scene {
     let mut texture = Texture::new("picture", TextureKind::Image(image));
     texture.transform.rotation_degrees = rotation_degrees;
     let emission = Some(Emission { radiance: ColorInput::ScaledTexture(0, Spectrum::grey(2.0)), two_sided: false });
     let material = Material {
-        name: "lamp".into(),
+        name: "light".into(),
         kind: MaterialKind::Emissive,
         normal_map: None,
         emission,
@@ -24,7 +24,7 @@ fn lamp(image: ImageTexture, rotation_degrees: f64) -> Scene {
     let mut scene = Scene { textures: vec![texture], materials: vec![material], ..Scene::default() };
     let quad = crate::scene::Rectangle { corner: DVec3::ZERO, edge_u: DVec3::X, edge_v: DVec3::Y };
     scene.shapes.push(crate::scene::Shape {
-        label: "lamp".into(),
+        label: "light".into(),
         geometry: crate::scene::Geometry::Rectangle(quad),
         material: 0,
         transform: crate::scene::Transform::default(),
@@ -46,8 +46,8 @@ fn noise(x: u32, y: u32) -> f32 {
     (crate::sampling::hash::mix(x + 97 * y) % 1000) as f32 / 1000.0
 }
 
-fn part(corners: [DVec2; 3]) -> LampPart {
-    LampPart::Triangle(corners.map(Coordinates::from))
+fn part(corners: [DVec2; 3]) -> EmitterPart {
+    EmitterPart::Triangle(corners.map(Coordinates::from))
 }
 
 const EACH: [(TextureFilter, [TextureWrap; 2]); 5] = [
@@ -63,7 +63,7 @@ const EACH: [(TextureFilter, [TextureWrap; 2]); 5] = [
 fn means_are_those_of_what_is_looked_up() {
     let triangle = [DVec2::new(0.13, 0.2), DVec2::new(0.9, 0.31), DVec2::new(0.4, 1.17)];
     for ((filter, wrap), turn) in EACH.into_iter().flat_map(|each| [(each, 0.0), (each, 30.0)]) {
-        let scene = lamp(image([7, 5], filter, wrap, noise), turn);
+        let scene = textured_light(image([7, 5], filter, wrap, noise), turn);
         let maps = EmissionMaps::new(&scene);
         let expected = mean_by_points(&triangle, |uv| 2.0 * crate::texture::look_up(&scene.textures, 0, uv).r());
         let mean = maps.luminance(0, &part(triangle)).expect("it is an image");
@@ -71,15 +71,15 @@ fn means_are_those_of_what_is_looked_up() {
     }
 }
 
-/// A part that touches the one bright texel of a large picture, however large or small it is, is known to be lit, and parts add up to the whole.
+/// A part that touches the one bright texel of a large picture, however large or small it is, is known to emit, and parts add up to the whole.
 #[test]
 fn no_texel_is_overlooked() {
-    let scene = lamp(
+    let scene = textured_light(
         image([900, 700], TextureFilter::Nearest, [TextureWrap::Repeat; 2], |x, y| f32::from(u8::from((x, y) == (431, 77)))),
         0.0,
     );
     let maps = EmissionMaps::new(&scene);
-    let whole = maps.luminance(0, &LampPart::Whole(Unrolled::Evenly)).expect("it is an image");
+    let whole = maps.luminance(0, &EmitterPart::Whole(Unrolled::Evenly)).expect("it is an image");
     assert!((whole / (2.0 / 630_000.0) - 1.0).abs() < 1e-9, "{whole}");
     let [a, b, c, d] = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
     let halves = [[a, b, c], [a, c, d]].map(|corners| maps.luminance(0, &part(corners)).expect("it is an image"));
@@ -93,14 +93,14 @@ fn no_texel_is_overlooked() {
     assert_eq!(EmissionMaps::default().luminance(0, &part([a, b, c])), None);
 }
 
-/// The density is high where it is bright, positive wherever anything shines, and 0 elsewhere; rectangles that are lit evenly have none.
+/// The density is high where it is bright, positive wherever anything shines, and 0 elsewhere; rectangles that emit evenly have none.
 #[test]
 fn rectangles_are_drawn_by_what_they_show() {
     let bright = |x: u32, y: u32| f32::from(u8::from((x, y) == (2, 1)));
     for (filter, wrap) in EACH {
-        let scene = lamp(image([8, 8], filter, wrap, bright), 0.0);
+        let scene = textured_light(image([8, 8], filter, wrap, bright), 0.0);
         let maps = EmissionMaps::new(&scene);
-        let warp = maps.warp(0, Unrolled::Evenly).expect("it is lit unevenly");
+        let warp = maps.warp(0, Unrolled::Evenly).expect("it emits unevenly");
         let at = |x: f64, y: f64| warp.density((x + 0.5) / 8.0, 1.0 - (y + 0.5) / 8.0);
         assert!(at(2.0, 1.0) > 15.0, "{filter:?}: {}", at(2.0, 1.0));
         for (x, y) in (0..64).flat_map(|x| (0..64).map(move |y| (f64::from(x) / 8.0 - 0.4, f64::from(y) / 8.0 - 0.4))) {
@@ -109,10 +109,10 @@ fn rectangles_are_drawn_by_what_they_show() {
             assert!(at(x, y) > 0.0 || !shines, "{filter:?}: {x} {y}");
         }
         assert_eq!(at(6.0, 6.0), 0.0);
-        let even = lamp(image([8, 8], filter, wrap, |x, y| 0.5 + 0.5 * noise(x, y)), 0.0);
+        let even = textured_light(image([8, 8], filter, wrap, |x, y| 0.5 + 0.5 * noise(x, y)), 0.0);
         assert!(EmissionMaps::new(&even).warp(0, Unrolled::Evenly).is_none());
     }
-    let black = lamp(image([2, 2], TextureFilter::Nearest, [TextureWrap::Clamp; 2], |_, _| 0.0), 0.0);
+    let black = textured_light(image([2, 2], TextureFilter::Nearest, [TextureWrap::Clamp; 2], |_, _| 0.0), 0.0);
     assert!(EmissionMaps::new(&black).warp(0, Unrolled::Evenly).is_none());
 }
 
@@ -129,7 +129,7 @@ fn functions_are_looked_at_in_points() {
         TextureKind::Worley { scale: 6.0, a, b, seed: 1 },
     ];
     for (index, is_product) in (0..kinds.len()).flat_map(|index| [(index, false), (index, true)]) {
-        let mut scene = lamp(image([7, 5], TextureFilter::Bilinear, [TextureWrap::Repeat; 2], noise), 0.0);
+        let mut scene = textured_light(image([7, 5], TextureFilter::Bilinear, [TextureWrap::Repeat; 2], noise), 0.0);
         scene.textures.push(Texture::new("other", scene.textures[0].kind.clone()));
         scene.textures[0].kind = kinds[index].clone();
         scene.textures[0].times = is_product.then_some(1);
@@ -148,7 +148,7 @@ fn functions_are_looked_at_in_points() {
             (at(DVec2::new(middle(i), v)) * (std::f64::consts::PI * v).sin(), (std::f64::consts::PI * v).sin())
         };
         let (sum, area) = places.map(over_area).fold((0.0, 0.0), |sum, (value, area)| (sum.0 + value, sum.1 + area));
-        let found = maps.luminance(0, &LampPart::Whole(Unrolled::Sphere)).expect("it varies");
+        let found = maps.luminance(0, &EmitterPart::Whole(Unrolled::Sphere)).expect("it varies");
         assert!((found - floor - sum / area).abs() < 0.02 * sum / area, "{index} {is_product}: {found} and {}", sum / area);
     }
 }
@@ -165,7 +165,7 @@ fn no_point_of_a_function_has_density_0() {
         interior: None,
     };
     let blend = |size: u32| {
-        let mut scene = lamp(
+        let mut scene = textured_light(
             image([size, size], TextureFilter::Nearest, [TextureWrap::Clamp; 2], |x, y| f32::from(u8::from((x, y) == (2, 1)))),
             0.0,
         );
@@ -177,15 +177,15 @@ fn no_point_of_a_function_has_density_0() {
     };
     let scene = blend(8);
     let maps = EmissionMaps::new(&scene);
-    let warp = maps.warp(2, Unrolled::Evenly).expect("it is lit unevenly");
+    let warp = maps.warp(2, Unrolled::Evenly).expect("it emits unevenly");
     assert!(warp.density(2.5 / 8.0, 1.0 - 1.5 / 8.0) > 30.0);
     assert!(warp.densities.iter().all(|&density| density > 0.0));
-    let on_sphere = maps.warp(2, Unrolled::Sphere).expect("it is lit unevenly");
+    let on_sphere = maps.warp(2, Unrolled::Sphere).expect("it emits unevenly");
     assert!(on_sphere.density(2.5 / 8.0, 1.0 - 1.5 / 8.0) > 20.0 && on_sphere.densities.iter().all(|&density| density > 0.0));
     assert!(maps.map(0).is_none() && maps.map(1).is_none(), "what is the same everywhere is not looked at");
     let scene = blend(5000);
     let maps = EmissionMaps::new(&scene);
-    assert!(maps.warp(2, Unrolled::Evenly).is_none() && maps.luminance(2, &LampPart::Whole(Unrolled::Evenly)) > Some(0.0));
+    assert!(maps.warp(2, Unrolled::Evenly).is_none() && maps.luminance(2, &EmitterPart::Whole(Unrolled::Evenly)) > Some(0.0));
 }
 
 /// Bands of a sphere: below each lies what its lower border says, all of them together are the whole, and points in each are even over its area.

@@ -23,7 +23,7 @@ pub struct Band {
     pub rows: u32,
     /// Samples each pixel of the band received; where they differ, the fewest.
     pub samples: u32,
-    /// Samples of each pixel, in the order of `mean`, where a render ended in the middle of a sweep or samples follow the noise; None: every
+    /// Samples of each pixel, in the order of `mean`, where a render ended in the middle of an iteration or samples follow the noise; None: every
     /// pixel has `samples`. A picture's bands all have counts, or none has.
     pub counts: Option<Vec<u32>>,
     /// Mean radiance per pixel, row by row from the top; `width * rows` long.

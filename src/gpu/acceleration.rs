@@ -41,8 +41,8 @@ impl Acceleration {
         let triangles = packed.hierarchy.primitive_count - boxes.len() as u32;
         let name = format!("acceleration structure {}", BUILT.fetch_add(1, Ordering::Relaxed));
         let parts = [
-            (triangles > 0).then(|| Part::of_triangles(device, &name, &packed.primitives[..triangles as usize])),
-            (!boxes.is_empty()).then(|| Part::of_boxes(device, &name, boxes, triangles)),
+            (triangles > 0).then(|| BottomLevel::of_triangles(device, &name, &packed.primitives[..triangles as usize])),
+            (!boxes.is_empty()).then(|| BottomLevel::of_boxes(device, &name, boxes, triangles)),
         ];
         let mut structure = device.device.create_tlas(&wgpu::CreateTlasDescriptor {
             label: Some(&name),
@@ -53,7 +53,7 @@ impl Acceleration {
         for (slot, part) in parts.iter().flatten().enumerate() {
             structure[slot] = Some(wgpu::TlasInstance::new(&part.blas, IN_PLACE, part.first_primitive, 0xff));
         }
-        let entries: Vec<_> = parts.iter().flatten().map(Part::entry).collect();
+        let entries: Vec<_> = parts.iter().flatten().map(BottomLevel::entry).collect();
         let mut encoder = device.device.create_command_encoder(&Default::default());
         encoder.build_acceleration_structures(&entries, [&structure]);
         // Whoever renders waits for it, and sees what went wrong.
@@ -70,7 +70,7 @@ fn allocated(device: &Device, name: &str) -> Option<u64> {
 }
 
 /// Primitives of one kind.
-struct Part {
+struct BottomLevel {
     blas: wgpu::Blas,
     input: wgpu::Buffer,
     size: Size,
@@ -82,7 +82,7 @@ enum Size {
     Boxes(wgpu::BlasAABBGeometrySizeDescriptor),
 }
 
-impl Part {
+impl BottomLevel {
     fn of_triangles(device: &Device, name: &str, primitives: &[Primitive]) -> Self {
         let size = wgpu::BlasTriangleGeometrySizeDescriptor {
             vertex_format: wgpu::VertexFormat::Float32x3,

@@ -16,10 +16,10 @@ pub struct BandProgress {
     /// Pixels that take part, and how many of them have samples, from the first.
     pub pixels: u32,
     pub reached: u32,
-    /// Samples per pixel of the sweeps that are over.
+    /// Samples per pixel of the iterations that are over.
     pub done: u32,
-    /// Samples per pixel of the sweep under way, 0 where none is, and how many of the pixels have them.
-    pub sweep: u32,
+    /// Samples per pixel of the iteration under way, 0 where none is, and how many of the pixels have them.
+    pub iteration: u32,
     pub next_pixel: u32,
     /// Finished samples of this render, over all pixels of the band.
     pub samples_done: u64,
@@ -28,13 +28,13 @@ pub struct BandProgress {
 impl BandProgress {
     /// A band without samples.
     pub fn new([first_row, rows]: [u32; 2], pixels: u32) -> Self {
-        Self { first_row, rows, pixels, reached: 0, done: 0, sweep: 0, next_pixel: 0, samples_done: 0 }
+        Self { first_row, rows, pixels, reached: 0, done: 0, iteration: 0, next_pixel: 0, samples_done: 0 }
     }
 
     /// Goes on from a state of these rows.
     pub fn resume(&mut self, state: &BatchState, batch: &Batch<'_>, width: u32) {
         self.done = state.done;
-        self.sweep = state.sweep;
+        self.iteration = state.iteration;
         let reached = state.reached.min(self.rows * width);
         let first = (self.first_row * width) as usize;
         self.next_pixel = if batch.selects() {
@@ -69,7 +69,7 @@ impl BandProgress {
         BatchState {
             rows: self.first_row..self.first_row + self.rows,
             done: self.done,
-            sweep: if self.next_pixel > 0 { self.sweep } else { 0 },
+            iteration: if self.next_pixel > 0 { self.iteration } else { 0 },
             reached,
             film: Arc::new(film),
             tally,
@@ -78,7 +78,7 @@ impl BandProgress {
 }
 
 /// Facts that all bands of a batch share.
-pub struct Sweeps<'a> {
+pub struct BatchContext<'a> {
     pub batch: &'a Batch<'a>,
     pub samples: Range<u32>,
     pub sampling: Sampling,
@@ -107,12 +107,12 @@ mod tests {
             for next_pixel in 0..pixels {
                 for done in [0, 3] {
                     let mut band = BandProgress::new([2, 2], pixels);
-                    (band.done, band.sweep, band.next_pixel) = (done, 2, next_pixel);
+                    (band.done, band.iteration, band.next_pixel) = (done, 2, next_pixel);
                     let state = band.state(&batch, 5, FilmState::empty(), Tally::default());
                     let mut again = BandProgress::new([2, 2], pixels);
                     again.resume(&state, &batch, 5);
                     assert_eq!((again.done, again.next_pixel), (done, next_pixel));
-                    assert_eq!(again.sweep, if next_pixel > 0 { 2 } else { 0 });
+                    assert_eq!(again.iteration, if next_pixel > 0 { 2 } else { 0 });
                     assert_eq!(again.reached, if done > 0 { pixels } else { next_pixel });
                 }
             }

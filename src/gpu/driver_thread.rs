@@ -10,7 +10,7 @@ use std::sync::{Once, OnceLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Name of the thread, whose panics are told as errors and not printed.
+/// Name of the thread, whose panics are reported as errors and not printed.
 const THREAD: &str = "gpt driver";
 /// Name of the thread that opens a device, for which the same holds.
 pub const OPENING_THREAD: &str = "gpt opens a device";
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_told_and_the_thread_goes_on() {
+    fn a_panic_is_reported_and_the_thread_goes_on() {
         let thread = DriverThread::start(Duration::from_secs(60));
         let fate = thread.run(|| panic!("Error in Device::poll: {}", "lost")).map(|()| 0);
         assert!(matches!(fate, Err(Fate::Panicked(message)) if message == "Error in Device::poll: lost"));

@@ -34,7 +34,7 @@ impl<'a> Fitting<'a> {
     ) -> Result<Self, RenderError> {
         let traversal = options.packed_traversal(scene, limits);
         let mut settled = learn::settle(scene)?;
-        // The scene is not to be held in both forms.
+        // The scene is not to be in memory in both forms.
         settled.integrator = None;
         let packed = pack(&settled, traversal, kept)?;
         Ok(Self { settled, packed, options: Cow::Borrowed(options), traversal })

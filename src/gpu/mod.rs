@@ -10,6 +10,7 @@ mod driver_thread;
 mod film;
 mod film_memory;
 mod fitting;
+mod iterations;
 pub mod kernels;
 mod limits;
 pub mod passes;
@@ -17,7 +18,6 @@ pub mod pipeline;
 pub mod profile;
 pub mod renderer;
 mod snapshot;
-mod sweeps;
 pub mod trace;
 
 pub use adapters::{AdapterSummary, list_devices, select_adapter};

@@ -31,7 +31,7 @@ pub struct Pass {
     /// Absolute index.
     pub first_sample: u32,
     pub sample_count: u32,
-    /// None of these pixels had samples before this sweep.
+    /// None of these pixels had samples before this iteration.
     pub film_is_empty: bool,
 }
 
@@ -53,7 +53,7 @@ pub struct PassLimits {
     pub lanes: Option<u32>,
 }
 
-/// Sweeps over a band: every sweep gives each pixel the same number of further samples, in one or several passes.
+/// Iterations over a band: every iteration gives each pixel the same number of further samples, in one or several passes.
 #[derive(Debug)]
 pub struct PassSizer {
     limits: PassLimits,
@@ -68,8 +68,8 @@ impl PassSizer {
         Self { limits, seconds_per_path: [None; REGIONS], largest: f64::from(PROBE_PATHS) }
     }
 
-    /// Short passes that come before the first sweep over a band, to be timed: no pass shall be long because nothing was known. Their samples
-    /// are traced again by the sweep, over them.
+    /// Short passes that come before the first iteration over a band, to be timed: no pass shall be long because nothing was known. Their samples
+    /// are traced again by the iteration, over them.
     pub fn probes(&self, band_pixels: u32, first_sample: u32, samples: u32) -> Vec<Pass> {
         let known = self.seconds_per_path.iter().any(Option::is_some);
         if known || u64::from(band_pixels) * u64::from(samples) < WORTH_A_PROBE {
@@ -100,13 +100,13 @@ impl PassSizer {
         self.largest = self.largest.max(pass.paths() as f64);
     }
 
-    /// Samples per pixel of the next sweep.
-    pub fn sweep_samples(&self, band_pixels: u32, samples_done: u32, samples_left: u32) -> u32 {
+    /// Samples per pixel of the next iteration.
+    pub fn iteration_samples(&self, band_pixels: u32, samples_done: u32, samples_left: u32) -> u32 {
         let PassLimits { stages, paths: capacity, lanes, .. } = self.limits;
         let whole_band = self.paths(self.mean_seconds_per_path(), TARGET) / f64::from(band_pixels);
         let samples = match stages {
             StageMode::Wavefront => whole_band.min(f64::from(capacity / band_pixels)),
-            // The first sweeps are short so that an interrupted render has all its pixels.
+            // The first iterations are short so that an interrupted render has all its pixels.
             StageMode::Fused => {
                 let filling = FUSED_SAMPLES.min(samples_done.max(1));
                 let in_time = self.paths(self.largest_seconds_per_path(), TARGET) / f64::from(FEWEST_PIXELS);
@@ -122,30 +122,30 @@ impl PassSizer {
         filling.min(samples_left)
     }
 
-    /// Samples per pixel that a sweep over the band can have to end within the time.
+    /// Samples per pixel that an iteration over the band can have to end within the time.
     pub fn samples_within(&self, band_pixels: u32, time: Duration) -> u32 {
         (time.as_secs_f64() / (self.mean_seconds_per_path().unwrap_or(0.0) * f64::from(band_pixels)).max(1e-9)) as u32
     }
 
-    /// Pixels of the next pass of a sweep with this many samples each, from `first_pixel` on.
-    pub fn pass_pixels(&self, sweep_samples: u32, band_pixels: u32, first_pixel: u32) -> u32 {
+    /// Pixels of the next pass of an iteration with this many samples each, from `first_pixel` on.
+    pub fn pass_pixels(&self, iteration_samples: u32, band_pixels: u32, first_pixel: u32) -> u32 {
         let pixels_left = band_pixels - first_pixel;
         let limit = match self.limits.stages {
-            // A sweep that another device began may be longer than this one's paths.
-            StageMode::Wavefront => self.limits.pixels.min((self.limits.paths / sweep_samples).max(1)),
+            // An iteration that another device began may be longer than this one's paths.
+            StageMode::Wavefront => self.limits.pixels.min((self.limits.paths / iteration_samples).max(1)),
             StageMode::Fused => self.limits.pixels,
         };
-        let wanted = self.pixels_in_time(sweep_samples, band_pixels, first_pixel);
+        let wanted = self.pixels_in_time(iteration_samples, band_pixels, first_pixel);
         let pixels = wanted.max(FEWEST_PIXELS).min(limit).min(pixels_left);
         // A small rest is taken along rather than left for a pass of its own.
         if pixels_left - pixels < pixels / 4 && pixels_left <= limit { pixels_left } else { pixels }
     }
 
     /// Pixels from `first_pixel` on that take the target time together, by what their regions took.
-    fn pixels_in_time(&self, sweep_samples: u32, band_pixels: u32, first_pixel: u32) -> u32 {
-        let samples = f64::from(sweep_samples);
+    fn pixels_in_time(&self, iteration_samples: u32, band_pixels: u32, first_pixel: u32) -> u32 {
+        let samples = f64::from(iteration_samples);
         let most = (self.largest * GROWTH / samples) as u32;
-        let Some(unknown) = self.largest_seconds_per_path() else { return PROBE_PATHS / sweep_samples };
+        let Some(unknown) = self.largest_seconds_per_path() else { return PROBE_PATHS / iteration_samples };
         let (mut pixel, mut time) = (first_pixel, TARGET.as_secs_f64());
         for region in region(band_pixels, first_pixel)..REGIONS {
             let end = region_end(band_pixels, region);
@@ -209,7 +209,7 @@ mod tests {
             let mut done = 0;
             let mut random = 1_u32;
             while done < spp {
-                let samples = sizer.sweep_samples(band, done, spp - done);
+                let samples = sizer.iteration_samples(band, done, spp - done);
                 let mut first = 0;
                 while first < band {
                     let pixels = sizer.pass_pixels(samples, band, first);
@@ -249,7 +249,7 @@ mod tests {
         }
         let mut done = 0;
         while done < spp {
-            let samples = sizer.sweep_samples(band, done, spp - done);
+            let samples = sizer.iteration_samples(band, done, spp - done);
             let mut first = 0;
             while first < band {
                 let pixel_count = sizer.pass_pixels(samples, band, first);

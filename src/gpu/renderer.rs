@@ -1,4 +1,4 @@
-//! Renders a scene on a device: bands, sweeps, passes, submissions.
+//! Renders a scene on a device: bands, iterations, passes, submissions.
 
 use std::cell::Cell;
 use std::mem::ManuallyDrop;
@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 
-use super::band::{BandProgress, Sweeps};
+use super::band::{BandProgress, BatchContext};
 use super::buffers::STATISTICS_BYTES;
 use super::device::{Device, OpeningDevice};
 use super::film::{self, Reached, deliver_band};
@@ -203,18 +203,18 @@ impl GpuRenderer {
     }
 
     /// Counts since the batch began, with `samples` in this band.
-    pub(super) fn tally(&self, samples: u64, sweeps: &Sweeps<'_>) -> Result<Tally, RenderError> {
+    pub(super) fn tally(&self, samples: u64, context: &BatchContext<'_>) -> Result<Tally, RenderError> {
         let words = self.pipeline.read_words::<{ COUNTER_WORDS as usize }>(Binding::Statistics)?;
         let counted = |counter: u32| u64::from(words[counter as usize + 1]) << 32 | u64::from(words[counter as usize]);
-        let samples = sweeps.finished.get() + samples;
+        let samples = context.finished.get() + samples;
         // `prepare` counts the wavefront's rays to later vertices; those to the first are the paths themselves.
-        let camera_rays = if self.pipeline.plan.stages == StageMode::Wavefront { samples - sweeps.before.samples } else { 0 };
+        let camera_rays = if self.pipeline.plan.stages == StageMode::Wavefront { samples - context.before.samples } else { 0 };
         Ok(Tally {
-            rays: sweeps.before.rays + counted(RAYS_COUNTER) + camera_rays,
+            rays: context.before.rays + counted(RAYS_COUNTER) + camera_rays,
             samples,
-            non_finite_samples: sweeps.before.non_finite_samples + counted(REFUSED_COUNTER),
-            clamped_samples: sweeps.before.clamped_samples + counted(CLAMPED_COUNTER),
-            clamped_units: sweeps.before.clamped_units + counted(CLAMPED_UNITS_COUNTER),
+            non_finite_samples: context.before.non_finite_samples + counted(REFUSED_COUNTER),
+            clamped_samples: context.before.clamped_samples + counted(CLAMPED_COUNTER),
+            clamped_units: context.before.clamped_units + counted(CLAMPED_UNITS_COUNTER),
         })
     }
 }
@@ -271,7 +271,7 @@ impl Renderer for GpuRenderer {
         let total = batch.total_samples(width);
         let before = batch.resume.map(|state| state.tally).unwrap_or_default();
         let finished = Cell::new(before.samples);
-        let sweeps = Sweeps {
+        let context = BatchContext {
             batch,
             samples: request.samples.clone(),
             sampling: Sampling { seed: batch.seed.unwrap_or(self.sampling.seed), ..self.sampling },
@@ -292,18 +292,18 @@ impl Renderer for GpuRenderer {
             }
             let mut begun = BatchState::before(first_row..first_row + rows, before);
             if first_row > begin {
-                (begun.tally, ended) = self.between_bands(&begun, &sweeps, sink)?;
+                (begun.tally, ended) = self.between_bands(&begun, &context, sink)?;
                 if ended.is_some() {
                     break;
                 }
             }
             let pixels = self.listed_pixels([first_row, rows], batch)?;
             let mut band = BandProgress::new([first_row, rows], pixels);
-            ended = self.render_and_deliver(&mut band, &sweeps, resume.unwrap_or(&begun), is_cut, sink)?;
+            ended = self.render_and_deliver(&mut band, &context, resume.unwrap_or(&begun), is_cut, sink)?;
             finished.set(finished.get() + band.samples_done);
             first_row += rows;
         }
-        let tally = self.tally(0, &sweeps)?;
+        let tally = self.tally(0, &context)?;
         Ok(RenderReport {
             device: self.pipeline.device.name.clone(),
             hierarchy: self.pipeline.plan.traversal_in_use().map(Traversal::key),

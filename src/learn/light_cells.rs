@@ -27,8 +27,8 @@ use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
-use crate::sampling::light_way::{LightWay, MANY_LIGHTS};
-use crate::sampling::{LightTree, LitPoint, Sampling};
+use crate::sampling::light_strategy::{LightStrategy, MANY_LIGHTS};
+use crate::sampling::{LightSampleContext, LightTree, Sampling};
 use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, Shape};
 use crate::spectrum::Spectrum;
 
@@ -94,7 +94,7 @@ pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
     let mut integrator = Integrator::new(&by_cells)?;
     let (count, groups) = (integrator.lights().local_count(), integrator.lights().group_count());
     let has_few = count < MANY_LIGHTS;
-    if integrator.light_way() != LightWay::Cells || (is_open && has_few && groups < 2) {
+    if integrator.light_strategy() != LightStrategy::Cells || (is_open && has_few && groups < 2) {
         integrator.set_light_choice(scene.render.light_choice);
         return Ok(LightsSettled { integrator: Some(integrator), ..as_it_is });
     }
@@ -158,7 +158,7 @@ fn is_worth_learning(scene: &Scene) -> bool {
 /// A point of a surface at which light may be sampled.
 #[derive(Clone, Copy)]
 struct Shaded {
-    at: LitPoint,
+    at: LightSampleContext,
     /// Zero where the surface scatters to either side.
     normal: DVec3,
 }
@@ -179,7 +179,7 @@ fn learned(integrator: &Integrator, has_to_be_whole: bool) -> Option<Learned> {
         return None;
     }
     let shaded = shaded_points(integrator, wanted.min(affordable.max(FEWEST_AFFORDABLE)));
-    let points: Vec<LitPoint> = shaded.iter().map(|shaded| shaded.at).collect();
+    let points: Vec<LightSampleContext> = shaded.iter().map(|shaded| shaded.at).collect();
     let division = Division::new(&points);
     let of_cell = |(cell, members): (usize, &Vec<u32>)| {
         let step = members.len().div_ceil(TRIED_POINTS).max(1);
@@ -390,11 +390,11 @@ impl PathVisitor for Walker {
 
     fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, _throughput: Spectrum) {
         let normal = surface.point.normal_towards(wo);
-        self.at = Some(Shaded { at: LitPoint::new(surface.point.leave_towards(wo), normal), normal });
+        self.at = Some(Shaded { at: LightSampleContext::new(surface.point.leave_towards(wo), normal), normal });
     }
 
     fn medium(&mut self, _depth: u32, position: DVec3, wo: DVec3, _throughput: Spectrum) {
-        self.at = Some(Shaded { at: LitPoint::new(position, wo), normal: DVec3::ZERO });
+        self.at = Some(Shaded { at: LightSampleContext::new(position, wo), normal: DVec3::ZERO });
     }
 
     fn scattered(&mut self, sample: &BsdfSample) {

@@ -8,7 +8,7 @@ use super::trial::{self, Chosen};
 use super::{guide, guide::Learned};
 use crate::reference::Integrator;
 use crate::renderer::RenderError;
-use crate::sampling::light_way::MANY_LIGHTS;
+use crate::sampling::light_strategy::MANY_LIGHTS;
 use crate::sampling::{Guide, LightCells};
 use crate::scene::{Guiding, LightChoice, Scene};
 

@@ -141,9 +141,9 @@ mod tests {
         let [few, many] = [100, 10_000].map(|count| of_path(&pile(count, "reflectance = 0.5")));
         assert!((50.0..200.0).contains(&(many / few)) || (few < 1000.0 && many > 5000.0), "{few} and {many}");
         // Paths and light go on through them, and each is looked at as it is passed.
-        let [opaque, veiled] =
+        let [opaque, translucent] =
             ["", "\nopacity = 0.5"].map(|opacity| of_path(&pile(1000, &format!("reflectance = 0.5{opacity}"))));
-        assert!(veiled > opaque, "{veiled} and {opaque}");
+        assert!(translucent > opaque, "{translucent} and {opaque}");
     }
 
     /// Threads count for themselves, and the judgement is the same however many there are.

@@ -135,16 +135,16 @@ mod tests {
     }
 
     #[test]
-    fn what_is_missing_is_told() {
-        let told = |parts: &[PartHeader], wanted| missing(parts, [10, 8], &wanted).map(|missing| missing.to_string());
+    fn what_is_missing_is_reported() {
+        let reported = |parts: &[PartHeader], wanted| missing(parts, [10, 8], &wanted).map(|missing| missing.to_string());
         let whole = [part(ALL, 0..4), part([0, 0, 5, 8], 4..9), part([5, 0, 5, 8], 4..9)];
-        assert_eq!(told(&whole, 0..9), None);
-        assert_eq!(told(&whole, 0..10).as_deref(), Some("samples 9 are missing"));
-        assert_eq!(told(&whole[..2], 0..9).as_deref(), Some("samples 4 to 8 are missing of 40 of its 80 pixels"));
+        assert_eq!(reported(&whole, 0..9), None);
+        assert_eq!(reported(&whole, 0..10).as_deref(), Some("samples 9 are missing"));
+        assert_eq!(reported(&whole[..2], 0..9).as_deref(), Some("samples 4 to 8 are missing of 40 of its 80 pixels"));
         assert_eq!(
-            told(&[part(ALL, 2..4), part(ALL, 6..7)], 0..9).as_deref(),
+            reported(&[part(ALL, 2..4), part(ALL, 6..7)], 0..9).as_deref(),
             Some("samples 0 to 1, 4 to 5, 7 to 8 are missing")
         );
-        assert_eq!(told(&[], 0..9).as_deref(), Some("samples 0 to 8 are missing"));
+        assert_eq!(reported(&[], 0..9).as_deref(), Some("samples 0 to 8 are missing"));
     }
 }

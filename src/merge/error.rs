@@ -1,4 +1,4 @@
-//! How far a picture is from the truth, told by what its parts differ by.
+//! How far a picture is from the truth, estimated from what its parts differ by.
 //!
 //! With m of n samples of a pixel, a part's mean has the variance σ²/m if parts are independent; then Σ m (x − x̄)² / (K − 1) over K parts is
 //! an estimate of σ², and σ²/n the squared error of the mean of all. Parts of one low-discrepancy sequence complete each other, so the truth is

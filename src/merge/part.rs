@@ -266,8 +266,8 @@ impl PartHeader {
         let strange = pixels.counts().iter().position(|count| !is_possible(*count));
         if let Some(place) = strange {
             let [column, row] = [place % width, place / width];
-            let (count, told) = (pixels.counts()[place], self.samples.len());
-            return Err(format!("its channel SampleCount holds {count} at {column}, {row}, and its header says {told} samples"));
+            let (count, said) = (pixels.counts()[place], self.samples.len());
+            return Err(format!("its channel SampleCount holds {count} at {column}, {row}, and its header says {said} samples"));
         }
         let of_layers = pixels.kernels.iter().find_map(|kernel| kernel.counts.iter().find(|count| **count < 0.0));
         of_layers.map_or(Ok(()), |count| Err(format!("a layer has {count} samples of a pixel")))
@@ -332,9 +332,9 @@ mod tests {
     }
 
     #[test]
-    fn filters_are_read_as_they_are_told() {
-        for filter_told in [Filter::default(), Filter { kind: FilterKind::Gaussian, radius: 1.5 }] {
-            assert_eq!(filter(&filter_told.to_string()), filter_told);
+    fn filters_are_read_as_they_are_written() {
+        for written in [Filter::default(), Filter { kind: FilterKind::Gaussian, radius: 1.5 }] {
+            assert_eq!(filter(&written.to_string()), written);
         }
     }
 }

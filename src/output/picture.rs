@@ -31,7 +31,7 @@ const BYTES_OF_NOTE: u64 = 64;
 
 /// A file that takes bands and appears, whole, at [`PictureFile::finish`]. Dropped before that, it leaves nothing.
 pub struct PictureFile {
-    place: Place,
+    place: Destination,
     messages: SyncSender<Message>,
     /// None once it was joined.
     encoder: Option<JoinHandle<Result<(), String>>>,
@@ -40,7 +40,7 @@ pub struct PictureFile {
 }
 
 /// The target of a picture.
-enum Place {
+enum Destination {
     File(AtomicFile),
     /// Kept in a file without a name until it is whole: encoders go back to the header.
     Stdout(File),
@@ -54,13 +54,13 @@ impl PictureFile {
     pub fn create(path: &Path, format: PictureFormat, spec: &PictureSpec) -> Result<Self, OutputError> {
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
         let place = if path == Path::new(STDOUT) {
-            Place::Stdout(temporary_file().map_err(failure)?)
+            Destination::Stdout(temporary_file().map_err(failure)?)
         } else {
-            Place::File(AtomicFile::create(path)?)
+            Destination::File(AtomicFile::create(path)?)
         };
         let handle = match &place {
-            Place::File(file) => file.handle()?,
-            Place::Stdout(file) => file.try_clone().map_err(failure)?,
+            Destination::File(file) => file.handle()?,
+            Destination::Stdout(file) => file.try_clone().map_err(failure)?,
         };
         let writer = BufWriter::with_capacity(1 << 18, handle);
         let (messages, receiver) = sync_channel(WAITING_BANDS);
@@ -79,8 +79,8 @@ impl PictureFile {
     /// The path as it was asked for.
     pub fn path(&self) -> &Path {
         match &self.place {
-            Place::File(file) => file.path(),
-            Place::Stdout(_) => Path::new(STDOUT),
+            Destination::File(file) => file.path(),
+            Destination::Stdout(_) => Path::new(STDOUT),
         }
     }
 
@@ -108,11 +108,11 @@ impl PictureFile {
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.encode_rest(Completeness::Finished)?;
         match self.place {
-            Place::File(file) => {
+            Destination::File(file) => {
                 let target = file.target().to_owned();
                 file.commit_or_keep(&target)
             }
-            Place::Stdout(file) => write_to_stdout(file),
+            Destination::Stdout(file) => write_to_stdout(file),
         }
     }
 
@@ -124,8 +124,8 @@ impl PictureFile {
     pub fn finish_broken_off(mut self) -> Result<PathBuf, OutputError> {
         self.encode_rest(Completeness::BrokenOff)?;
         match self.place {
-            Place::Stdout(file) => write_to_stdout(file).map(|()| PathBuf::from(STDOUT)),
-            Place::File(file) => {
+            Destination::Stdout(file) => write_to_stdout(file).map(|()| PathBuf::from(STDOUT)),
+            Destination::File(file) => {
                 let place = beside_finished(file.target());
                 // The message names the file as the person did, unless a link leads elsewhere.
                 let named = file.path().with_file_name(place.file_name().unwrap_or_default());
@@ -138,8 +138,8 @@ impl PictureFile {
     /// True if a finished picture stands in its place. A render that broke off does not replace it.
     pub fn has_finished_one(&self) -> bool {
         match &self.place {
-            Place::File(file) => beside_finished(file.target()) != file.target(),
-            Place::Stdout(_) => false,
+            Destination::File(file) => beside_finished(file.target()) != file.target(),
+            Destination::Stdout(_) => false,
         }
     }
 

@@ -10,7 +10,7 @@ pub const MOST_WEIGHTS: usize = 1 << 20;
 
 /// A part of a blend on the way from the tree to the tables.
 #[derive(Clone)]
-pub struct Part {
+pub struct BlendPart {
     pub material: MaterialId,
     pub constant: f64,
     pub factors: Vec<PackedBlendWeight>,
@@ -18,18 +18,18 @@ pub struct Part {
     pub front_only: bool,
 }
 
-pub struct Parts {
+pub struct BlendParts {
     /// The plain materials at its ends, in the tree's order: the first child's before the second's.
-    pub plain: Vec<Part>,
+    pub plain: Vec<BlendPart>,
     /// Blends below the root that emit besides what their parts do.
-    pub emitting_blends: Vec<Part>,
+    pub emitting_blends: Vec<BlendPart>,
 }
 
 /// The parts of a blend; those that never have any weight are left out.
-pub fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
+pub fn parts(scene: &Scene, id: MaterialId) -> Result<BlendParts, PackError> {
     let mut weights = 0;
-    let mut found = Parts { plain: Vec::new(), emitting_blends: Vec::new() };
-    let mut to_visit = vec![Part { material: id, constant: 1.0, factors: Vec::new(), front_only: false }];
+    let mut found = BlendParts { plain: Vec::new(), emitting_blends: Vec::new() };
+    let mut to_visit = vec![BlendPart { material: id, constant: 1.0, factors: Vec::new(), front_only: false }];
     while let Some(mut branch) = to_visit.pop() {
         branch.front_only |= !scene.materials[branch.material].two_sided;
         // Checked on the way: a deep chain of blends would fill the memory before it ends.
@@ -42,7 +42,7 @@ pub fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
             continue;
         };
         for (child, reversed) in [(1, true), (0, false)] {
-            let mut below = Part { material: materials[child], ..branch.clone() };
+            let mut below = BlendPart { material: materials[child], ..branch.clone() };
             match constant_weight(weight) {
                 Some(value) => below.constant *= if reversed { 1.0 - value } else { value },
                 None => below.factors.push(PackedBlendWeight::new(weight, reversed)),
@@ -60,7 +60,7 @@ pub fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
 
 /// Lambert surfaces blended by weights that never change are one of their mean reflectance. None where a part is anything else, varies
 /// over the surface, or emits.
-pub fn lambert_of_the_mean(scene: &Scene, plain: &[Part]) -> Option<Spectrum> {
+pub fn lambert_of_the_mean(scene: &Scene, plain: &[BlendPart]) -> Option<Spectrum> {
     let weighted =
         plain.iter().map(|part| match &scene.materials[part.material] {
             Material {

@@ -103,7 +103,7 @@ pub fn build(binary: &Bvh2, most: u32) -> (Vec<Node>, Vec<usize>) {
 
 /// A child about to be stored: its box, and the binary node it stands for.
 #[derive(Clone, Copy)]
-struct Place {
+struct ChildBox {
     bounds: Box3,
     node: usize,
 }
@@ -117,11 +117,11 @@ struct Collapse<'a> {
 }
 
 impl Collapse<'_> {
-    fn child(&self, node: usize) -> Place {
-        Place { bounds: self.binary.nodes[node].aabb().into(), node }
+    fn child(&self, node: usize) -> ChildBox {
+        ChildBox { bounds: self.binary.nodes[node].aabb().into(), node }
     }
 
-    fn widen(&self, node: usize) -> Vec<Place> {
+    fn widen(&self, node: usize) -> Vec<ChildBox> {
         self.widening.children(node).into_iter().map(|node| self.child(node)).collect()
     }
 
@@ -152,7 +152,7 @@ impl Collapse<'_> {
 }
 
 /// Puts the children's boxes onto a grid.
-fn quantise(children: &[Place]) -> Node {
+fn quantise(children: &[ChildBox]) -> Node {
     let grid = Grid::around(children.iter().map(|child| child.bounds));
     let mut node = Node { origin: grid.origin_bits(), exponents_and_flags: grid.exponents(), ..Node::default() };
     for (place, child) in children.iter().enumerate() {

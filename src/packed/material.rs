@@ -4,7 +4,7 @@
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
-use super::blend_parts::{MOST_WEIGHTS, Part, Parts, lambert_of_the_mean, parts};
+use super::blend_parts::{BlendPart, BlendParts, MOST_WEIGHTS, lambert_of_the_mean, parts};
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::constants::NONE;
 use super::error::PackError;
@@ -315,10 +315,10 @@ impl PackedMaterials {
     }
 
     fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<PackedMaterial, PackError> {
-        let Parts { plain, emitting_blends } = parts(scene, id)?;
+        let BlendParts { plain, emitting_blends } = parts(scene, id)?;
         let mut packed = PackedMaterial::new(&scene.materials[id]);
         // A blend that always is one of its materials is that material.
-        if let [Part { material, constant: 1.0, factors, front_only }] = plain.as_slice()
+        if let [BlendPart { material, constant: 1.0, factors, front_only }] = plain.as_slice()
             && factors.is_empty()
             && *front_only != scene.materials[*material].two_sided
             && emitting_blends.is_empty()

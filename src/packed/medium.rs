@@ -16,7 +16,7 @@ shared_constants!(constants {
     const MEDIUM_WORDS: u32 = (size_of::<PackedMedium>() / 16) as u32;
     /// Flags of a medium: it scatters light; light samples reach it.
     const MEDIUM_SCATTERS: u32 = 1;
-    const MEDIUM_IS_LIT: u32 = 2;
+    const MEDIUM_IS_LIGHT_SAMPLED: u32 = 2;
     /// Flags of a medium with grids: it has a density, and behind that a grid of albedos, and one by which emission is multiplied.
     const MEDIUM_VARIES: u32 = 4;
     const MEDIUM_HAS_ALBEDOS: u32 = 8;
@@ -109,7 +109,7 @@ impl PackedMedia {
         Ok(PackedMedium {
             extinction: filling.extinction.to_f32(),
             flags: flag(filling.scatters(), MEDIUM_SCATTERS)
-                | flag(filling.is_lit, MEDIUM_IS_LIT)
+                | flag(filling.is_light_sampled, MEDIUM_IS_LIGHT_SAMPLED)
                 | flag(grids.is_some(), MEDIUM_VARIES)
                 | flag(grids.is_some_and(|grids| grids.albedo().is_some()), MEDIUM_HAS_ALBEDOS)
                 | flag(grids.is_some_and(|grids| grids.emission().is_some()), MEDIUM_HAS_GLOW),

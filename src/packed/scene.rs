@@ -85,14 +85,14 @@ impl PackedScene {
         let scene = &*scene.centered();
         let mut world = world::collect(scene);
         let mut materials = PackedMaterials::new(scene, &world.materials())?;
-        let mut thrown_textures = light::thrown_textures(scene);
-        let of_lights = thrown_textures.iter_mut().filter(|mention| **mention != NONE);
+        let mut projected_textures = light::projected_textures(scene);
+        let of_lights = projected_textures.iter_mut().filter(|mention| **mention != NONE);
         let grids = materials.media.volumes.grids().to_vec();
         let mut textures = PackedTextures::new(scene, materials.textures_mut().chain(of_lights), &grids)?;
         materials.media.volumes.place(&mut textures)?;
         let environment = light::environment(scene, &mut textures)?;
         let light::SampledLights { mut lights, local_count, nodes, cells } =
-            light::collect(scene, &mut world, &environment, &thrown_textures, &mut textures)?;
+            light::collect(scene, &mut world, &environment, &projected_textures, &mut textures)?;
         let places = materials.places(scene);
         world.replace_materials(|material| places[material] as usize);
         for light in lights.iter_mut().filter(|light| light.material != NONE) {

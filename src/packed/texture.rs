@@ -308,8 +308,8 @@ impl Packing {
         self.packed.textures.push(PackedTexture {
             kind_and_flags: packed.kind_and_flags
                 | if heights { TEXTURE_HEIGHTS } else { 0 }
-                | if texture.shadows_bent_normals { TEXTURE_SHADOWS } else { 0 }
-                | if texture.mirrors_bent_normals { TEXTURE_MIRRORS } else { 0 }
+                | if texture.shadows_perturbed_normals { TEXTURE_SHADOWS } else { 0 }
+                | if texture.mirrors_perturbed_normals { TEXTURE_MIRRORS } else { 0 }
                 | if texture.by_second_uvs { TEXTURE_BY_SECOND_UVS } else { 0 }
                 | if texture.bends_by_first_uvs { TEXTURE_BENDS_BY_FIRST_UVS } else { 0 },
             a: [packed.a[0], packed.a[1], packed.a[2], scale as f32],

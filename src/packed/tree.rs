@@ -18,7 +18,7 @@ use super::shape::PrimitiveKind;
 use super::world::WorldGeometry;
 use super::{bvh4, instance, ray_query};
 use crate::binary_tree;
-use crate::binary_tree::parts::{KeptTrees, Part, Pose, build_of_parts};
+use crate::binary_tree::parts::{KeptTrees, MovingPart, Pose, build_of_parts};
 
 /// Leaves hold at most this many primitives: their size takes two bits.
 const MAX_LEAF: u32 = 4;
@@ -43,7 +43,7 @@ const PARAMETERS: BvhBuildParams = BvhBuildParams::medium_build();
 /// Trees of an earlier frame are `kept` for the next one, which saves time and changes nothing.
 ///
 /// # Errors
-/// [`PackError`] for more primitives or planes than can be held.
+/// [`PackError`] for more primitives or planes than a hierarchy can hold.
 pub fn build(world: &WorldGeometry, traversal: Traversal, kept: &mut KeptTrees) -> Result<(Hierarchy, Vec<Slot>), PackError> {
     let primitives = &world.primitives;
     let belongs = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle || primitive.moves();
@@ -57,9 +57,9 @@ pub fn build(world: &WorldGeometry, traversal: Traversal, kept: &mut KeptTrees) 
         return Err(PackError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });
     }
     let in_groups: usize = world.groups.iter().map(|group| group.primitives.len()).sum();
-    let held = inside.len() + world.instances.len() + in_groups;
-    if held > MAX_PRIMITIVES {
-        return Err(PackError::TooManyPrimitives { found: held, limit: MAX_PRIMITIVES });
+    let in_hierarchy = inside.len() + world.instances.len() + in_groups;
+    if in_hierarchy > MAX_PRIMITIVES {
+        return Err(PackError::TooManyPrimitives { found: in_hierarchy, limit: MAX_PRIMITIVES });
     }
     let slot = |&index: &usize| Slot::Primitive(index as u32);
     let (hierarchy, mut order) = match traversal {
@@ -136,10 +136,11 @@ fn of_two_levels(world: &WorldGeometry, inside: &[usize], kept: &KeptTrees) -> (
 }
 
 /// The shapes with keyframes, each as a part, and what else there is.
-fn parts(world: &WorldGeometry, inside: &[usize], posed: &BTreeMap<usize, Pose>, count: usize) -> Vec<Part> {
-    let mut parts: Vec<Part> = posed.values().map(|pose| Part { reference: Some(pose.clone()), ..Part::default() }).collect();
+fn parts(world: &WorldGeometry, inside: &[usize], posed: &BTreeMap<usize, Pose>, count: usize) -> Vec<MovingPart> {
+    let mut parts: Vec<MovingPart> =
+        posed.values().map(|pose| MovingPart { reference: Some(pose.clone()), ..MovingPart::default() }).collect();
     let places: BTreeMap<usize, usize> = posed.keys().enumerate().map(|(part, &shape)| (shape, part)).collect();
-    let mut others = Part::default();
+    let mut others = MovingPart::default();
     for place in 0..count {
         let part = inside.get(place).and_then(|&index| places.get(&world.primitives[index].shape));
         part.map_or(&mut others, |&part| &mut parts[part]).members.push(place as u32);

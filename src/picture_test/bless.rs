@@ -51,7 +51,7 @@ pub fn bless(
         let noise = NoiseOfTiles::new(&mean, &renders.variances_of_a_sample(), settings);
         let detection = noise.detection(samples, samples * REPLICATIONS, settings.change);
         if detection.change <= settings.change || samples >= settings.most_samples {
-            // The first render is an eighth of what it is held against, which hardly counts.
+            // The first render is an eighth of what it is compared with, which hardly counts.
             let of_noise = first.and_then(|first| flip(&first, &mean, PIXELS_PER_DEGREE).ok()).map_or(0.0, |map| map.mean());
             let golden = Golden::of(&renders, of_noise, scene_hash.to_owned());
             return Ok(Blessed { golden, detection, seconds, non_finite_samples: renders.non_finite_samples });

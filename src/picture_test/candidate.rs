@@ -4,7 +4,7 @@ use super::error::PictureTestError;
 use super::golden::{Candidate, Golden};
 use super::judge::tile_settings;
 use super::settings::TestSettings;
-use crate::compare::{ImageComparison, Picture, Scatter, compare_measured, compare_paired};
+use crate::compare::{ImageComparison, ImageView, Scatter, compare_measured, compare_paired};
 
 /// Holds a picture against the golden one. Where it says how its samples vary, that counts; else its noise is what the differences of a tile's
 /// pixels scatter by, by Student's t. There is nothing to look at a second time.
@@ -16,12 +16,12 @@ pub fn judge_candidate(
     candidate: &Candidate,
     settings: &TestSettings,
 ) -> Result<ImageComparison, PictureTestError> {
-    let pictures = [&golden.mean, &candidate.mean].map(|image| Picture { width: image.width, pixels: &image.pixels });
+    let pictures = [&golden.mean, &candidate.mean].map(|image| ImageView { width: image.width, pixels: &image.pixels });
     let own = golden.own_variances();
-    let of_golden = Picture { width: golden.mean.width, pixels: &own };
+    let of_golden = ImageView { width: golden.mean.width, pixels: &own };
     let compared = match (&candidate.variances, candidate.samples) {
         (Some(variances), Some(samples)) => {
-            let variances = Picture { width: candidate.mean.width, pixels: variances };
+            let variances = ImageView { width: candidate.mean.width, pixels: variances };
             let scatter = [
                 Scatter { variances: of_golden, degrees_of_freedom: golden.degrees_of_freedom() },
                 Scatter { variances, degrees_of_freedom: f64::from(samples - 1) },

@@ -18,7 +18,7 @@ const REPLICATIONS_KEY: &str = "gpt:replications";
 /// Key in the header: ꟻLIP that the noise of a single one of these renders makes.
 const FLIP_KEY: &str = "gpt:flipOfNoise";
 
-/// A picture that others are held against.
+/// A picture that others are compared with.
 #[derive(Debug, Clone)]
 pub struct Golden {
     pub mean: Image,

@@ -6,7 +6,7 @@ use super::golden::Golden;
 use super::power::{Detection, NoiseOfTiles};
 use super::replications::{Purpose, Replications, seed_of};
 use super::settings::TestSettings;
-use crate::compare::{Finding, ImageComparison, Picture, Region, Scatter, TestResult, TileSettings, compare_measured, sidak};
+use crate::compare::{Finding, ImageComparison, ImageView, Region, Scatter, TestResult, TileSettings, compare_measured, sidak};
 use crate::output::Image;
 use crate::renderer::{Observer, Renderer};
 
@@ -143,12 +143,12 @@ pub fn tile_settings(settings: &TestSettings) -> TileSettings {
     TileSettings { tile: settings.tile, alpha: settings.false_alarms, ..TileSettings::default() }
 }
 
-fn of_image(image: &Image) -> Picture<'_> {
+fn of_image(image: &Image) -> ImageView<'_> {
     of_pixels(&image.pixels, image)
 }
 
-fn of_pixels<'a>(pixels: &'a [[f32; 3]], image: &Image) -> Picture<'a> {
-    Picture { width: image.width, pixels }
+fn of_pixels<'a>(pixels: &'a [[f32; 3]], image: &Image) -> ImageView<'a> {
+    ImageView { width: image.width, pixels }
 }
 
 /// The rows that findings are about.

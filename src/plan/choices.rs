@@ -1,11 +1,11 @@
 //! The alternatives of a plan, and the numbers that decide between them.
 
-use crate::renderer::state::MOST_SAMPLES_PER_SWEEP;
+use crate::renderer::state::MOST_SAMPLES_PER_ITERATION;
 
 /// Registers that a packet's stack may take: few enough that compilers keep them, enough for hundreds of millions of primitives.
 pub(super) const MOST_STACK_REGISTERS: u32 = 16;
-/// Samples of one pixel in one pass: as many as a sweep may have.
-pub const MAX_SAMPLES_PER_PASS: u32 = MOST_SAMPLES_PER_SWEEP;
+/// Samples of one pixel in one pass: as many as an iteration may have.
+pub const MAX_SAMPLES_PER_PASS: u32 = MOST_SAMPLES_PER_ITERATION;
 
 /// The form in which kernels have the geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,8 +11,8 @@ use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::renderer::Decision;
 use crate::sampling::light_cells::table as light_cells;
+use crate::sampling::light_strategy::MANY_LIGHTS;
 use crate::sampling::light_tree;
-use crate::sampling::light_way::MANY_LIGHTS;
 use crate::scene::{FEW_PRIMITIVES, LightChoice, RenderSettings, Scene};
 
 const ASKED_FOR: &str = "asked for";

@@ -37,7 +37,7 @@ pub struct Plane {
 /// - the throughput, and the scale of roulette;
 /// - the radiance, and as bits the number of vertices at null surfaces below the facing of the surface from which light was last sampled, in 28 and 4 bits;
 /// - the hit;
-/// - the point from which light was last sampled;
+/// - the reference point of the last light sample;
 /// - the media that the ray is in, as bits.
 pub const PLANES: &[Plane] = &[
     Plane { name: "PLANE_ORIGIN", switch: None },
@@ -45,7 +45,7 @@ pub const PLANES: &[Plane] = &[
     Plane { name: "PLANE_THROUGHPUT", switch: None },
     Plane { name: "PLANE_RADIANCE", switch: None },
     Plane { name: "PLANE_HIT", switch: None },
-    Plane { name: "PLANE_LIT_FROM", switch: Some("TRANSPARENT_SHADOWS") },
+    Plane { name: "PLANE_REFERENCE_POINT", switch: Some("TRANSPARENT_SHADOWS") },
     Plane { name: "PLANE_MEDIA", switch: Some("MEDIA") },
 ];
 

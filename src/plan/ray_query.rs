@@ -19,9 +19,9 @@ pub(super) fn check(packed: &PackedScene, limits: &DeviceLimits) -> Result<(), P
     if !packed.instances.is_empty() {
         return refuse("it has instances, which this program keeps in a hierarchy of its own".to_owned());
     }
-    let held = u64::from(packed.hierarchy.primitive_count);
+    let in_hierarchy = u64::from(packed.hierarchy.primitive_count);
     let boxes = packed.hierarchy.boxes.len() as u64;
-    let triangles = held - boxes;
+    let triangles = in_hierarchy - boxes;
     // Limits count the vertices of triangles.
     if 3 * triangles > u64::from(max_primitives) || boxes > u64::from(max_primitives) {
         return refuse(format!(

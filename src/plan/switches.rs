@@ -149,18 +149,18 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
 
 fn choose_shapes(packed: &PackedScene, switches: &mut Switches) {
     let has = |primitives: &[Primitive], kind: PrimitiveKind| primitives.iter().any(|primitive| primitive.is(kind));
-    let (held, _) = packed.primitives.split_at(packed.hierarchy.primitive_count as usize);
+    let (in_hierarchy, _) = packed.primitives.split_at(packed.hierarchy.primitive_count as usize);
     let is_sampled = |kind: PrimitiveKind| packed.lights.iter().any(|light| light.shape() == Some(kind));
     for &kind in PrimitiveKind::ALL {
         switches.enable(kind.switch(), has(&packed.primitives, kind) || is_sampled(kind));
         if !kind.is_infinite() {
-            switches.enable(kind.switch_in_hierarchy(), has(held, kind));
+            switches.enable(kind.switch_in_hierarchy(), has(in_hierarchy, kind));
             switches.enable(kind.switch_of_lights(), is_sampled(kind));
         }
     }
-    let mut tested = held.iter().filter(|primitive| primitive.instance().is_none());
+    let mut tested = in_hierarchy.iter().filter(|primitive| primitive.instance().is_none());
     let only_triangles = tested.all(|primitive| primitive.is(PrimitiveKind::Triangle));
-    switches.enable("ONLY_TRIANGLES_IN_HIERARCHY", !held.is_empty() && only_triangles);
+    switches.enable("ONLY_TRIANGLES_IN_HIERARCHY", !in_hierarchy.is_empty() && only_triangles);
 }
 
 /// True where any surface samples light. Paths of one edge have no vertex to sample it from.
@@ -212,7 +212,7 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     for &kind in LightKind::DELTA {
         switches.enable(kind.number_name(), has(kind));
     }
-    switches.enable("LIGHT_TEXTURES", packed.lights.iter().any(PackedLight::throws_texture));
+    switches.enable("LIGHT_TEXTURES", packed.lights.iter().any(PackedLight::projects_texture));
     switches.enable("SPOT_FALLOFFS", packed.lights.iter().any(|light| light.is(LightKind::Spot) && light.form() != 0));
     let environment = !packed.environment.is_black();
     switches.enable("ENVIRONMENT", environment);

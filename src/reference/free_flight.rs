@@ -131,7 +131,7 @@ mod tests {
             emission: Spectrum::BLACK,
             phase: Phase::isotropic(),
             grids: None,
-            is_lit: true,
+            is_light_sampled: true,
             is_dark: false,
         }
     }

@@ -29,7 +29,7 @@ use super::scatterer::{Interaction, Scatterer};
 use super::trace::{LightConnection, PathVisitor};
 use super::tracking::{Stream, pass_through, track};
 use crate::sampling::hash::mix;
-use crate::sampling::{CameraDimension, Dimension, Guide, LitPoint, MediumDimension, PathSampler, VertexDimension};
+use crate::sampling::{CameraDimension, Dimension, Guide, LightSampleContext, MediumDimension, PathSampler, VertexDimension};
 use crate::scene::{Emitters, Estimator, Filling, Media, MediumGrids, Scene};
 use crate::spectrum::Spectrum;
 
@@ -69,7 +69,7 @@ struct Path {
     /// began there. Shadow rays from there go on through null surfaces as the path does, so both are weighed
     /// against each other by the densities that they have there.
     previous: Density,
-    lit_from: LitPoint,
+    reference: LightSampleContext,
     /// The media that the ray is in.
     stack: MediumStack,
     /// Edges of the path up to the end of the ray: the camera's has 1.
@@ -98,7 +98,7 @@ impl Integrator {
         let mut ray = self.camera.sample(x, y, sampler);
         visitor.round_ray(&mut ray, None);
         Path {
-            lit_from: ray.origin.into(),
+            reference: ray.origin.into(),
             ray,
             time: self.path_time(sampler),
             throughput: Spectrum::WHITE,
@@ -199,7 +199,7 @@ impl Integrator {
         let numbers =
             [MediumDimension::Event, MediumDimension::Distance].map(|dimension| visitor.round_number(random(dimension)));
         let pivot = || {
-            let mut pivot = if filling.is_lit { self.pivot(path, filling, length, sampler) } else { None }?;
+            let mut pivot = if filling.is_light_sampled { self.pivot(path, filling, length, sampler) } else { None }?;
             let magnitude = pivot.abs().max(path.ray.origin.abs()).max_element();
             visitor.round_point(&mut pivot, magnitude);
             Some(pivot)
@@ -248,7 +248,7 @@ impl Integrator {
         }
         let middle = path.ray.at((0.5 * length).min(3.0 / filling.extinction.sum()));
         let [choice, u, v] = sampler.light_bits(path.vertex, path.depth, 0);
-        let from = LitPoint::new(middle, -path.ray.direction);
+        let from = LightSampleContext::new(middle, -path.ray.direction);
         self.lights.place((&self.world, &path.time), from, choice, [u, v])
     }
 
@@ -281,14 +281,14 @@ impl Integrator {
         let random = |dimension| sampler.uniform(Dimension::vertex(vertex, dimension));
         let last_edge = path.depth == self.scene.render.max_depth;
         // Cells of lights are told apart by this normal.
-        let mut lit_normal = interaction.point().normal_towards(scatterer.wo());
-        visitor.round_direction(&mut lit_normal);
+        let mut reference_normal = interaction.point().normal_towards(scatterer.wo());
+        visitor.round_direction(&mut reference_normal);
 
         // Sample lights for direct lighting
         if !last_edge && V::LIGHTS && self.samples_light(scatterer) {
             for number in 0..self.scene.render.light_samples_at(path.depth) {
                 let bits = sampler.light_bits(vertex, path.depth, number);
-                self.add_direct_light(path, (interaction, lit_normal), scatterer, bits, visitor);
+                self.add_direct_light(path, (interaction, reference_normal), scatterer, bits, visitor);
             }
         }
 
@@ -320,7 +320,7 @@ impl Integrator {
             return true;
         }
         path.previous = drawn.density;
-        path.lit_from = LitPoint::new(path.ray.origin, lit_normal);
+        path.reference = LightSampleContext::new(path.ray.origin, reference_normal);
 
         // Let Russian roulette end the path
         let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
@@ -351,7 +351,7 @@ impl Integrator {
             return visitor.escaped(Spectrum::BLACK, 1.0, Spectrum::BLACK);
         }
         let radiance = self.lights.outside().radiance(path.ray.direction);
-        let light_pdf = || self.lights.environment_pdf(&self.world, path.lit_from, path.ray.direction);
+        let light_pdf = || self.lights.environment_pdf(&self.world, path.reference, path.ray.direction);
         let weight = self.emission_weight(path, light_pdf);
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
@@ -364,7 +364,7 @@ impl Integrator {
         if radiance.is_black() {
             return;
         }
-        let weight = self.emission_weight(path, || self.lights.pdf((&self.world, &path.time), path.lit_from, surface));
+        let weight = self.emission_weight(path, || self.lights.pdf((&self.world, &path.time), path.reference, surface));
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
         visitor.emission(radiance, weight, contribution);
@@ -395,7 +395,7 @@ impl Integrator {
     fn add_direct_light<V: PathVisitor>(
         &self,
         path: &mut Path,
-        (interaction, lit_normal): (&Interaction<'_>, DVec3),
+        (interaction, reference_normal): (&Interaction<'_>, DVec3),
         scatterer: &Scatterer<'_>,
         [choice, u, v]: [u32; 3],
         visitor: &mut V,
@@ -403,9 +403,9 @@ impl Integrator {
         // Sample a light and a direction to it
         let settings = &self.scene.render;
         let point = interaction.point();
-        let mut lit = point.leave_towards(scatterer.wo());
-        visitor.round_point(&mut lit, point.magnitude());
-        let reference = LitPoint::new(lit, lit_normal);
+        let mut origin = point.leave_towards(scatterer.wo());
+        visitor.round_point(&mut origin, point.magnitude());
+        let reference = LightSampleContext::new(origin, reference_normal);
         let moment = (&self.world, &path.time);
         let numbers = visitor.round_light_numbers([u, v], || self.lights.magnifies(moment, reference, choice));
         let Some(light) = self.lights.sample(&self.scene, moment, reference, choice, numbers) else { return };

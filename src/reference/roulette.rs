@@ -24,7 +24,7 @@ pub struct Expectation(Option<f64>);
 
 impl Expectation {
     /// The chance to survive at a surface where the path arrives with a throughput, of which the surface sends on, on average: light that comes by way of its
-    /// scattering, and all light. The first one sets what later ones are held against, and ends no path. Nor do surfaces without a guide.
+    /// scattering, and all light. The first one sets what later ones are compared with, and ends no path. Nor do surfaces without a guide.
     pub fn survival(&mut self, arriving: Spectrum, sent_on: Option<[f64; 2]>, depth: u32) -> f64 {
         let largest = largest_survival(depth);
         let Some([by_scattering, all]) = sent_on else { return largest };

@@ -9,7 +9,7 @@ use std::cell::Cell;
 /// Work of about a second on one core, in tests.
 pub const SECOND: u64 = 1 << 26;
 /// A surface that lets light through is looked at, not only tested.
-pub const VEIL: u64 = 16;
+pub const TRANSLUCENT_SURFACE: u64 = 16;
 /// A part of a blend, or one of several lobes.
 pub const PART: u64 = 8;
 thread_local! {

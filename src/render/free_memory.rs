@@ -1,4 +1,4 @@
-//! Memory that is free, and held for nobody.
+//! Memory that is free, and reserved for nobody.
 
 /// Gives free memory back to the system where this is dropped, behind what took it.
 ///

@@ -44,7 +44,7 @@ pub struct Stats {
     pub error_bound: Option<f64>,
     /// The estimate is rough and mostly too low, for few bright paths or few pixels make most of it.
     pub tails_decide: Option<bool>,
-    /// Lamps shine through glass or by mirrors: light that no path has found is not in the estimate.
+    /// Emitters shine through glass or by mirrors: light that no path has found is not in the estimate.
     pub light_by_chance: Option<bool>,
     pub first_sample: u32,
     pub seconds: Seconds,

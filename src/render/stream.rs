@@ -113,7 +113,7 @@ impl Renderer {
         Ok(Self { renderer, notice, options, film, size, provenance, bulk, memory })
     }
 
-    /// A fingerprint of the scene's meshes and pictures, which all of its frames share but those in which meshes are bent.
+    /// A fingerprint of the scene's meshes and pictures, which all of its frames share but those in which meshes are deformed.
     #[doc(hidden)]
     pub fn bulk_digest(&self) -> &BulkDigest {
         &self.bulk

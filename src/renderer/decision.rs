@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::sampling::light_way::LightWay;
+use crate::sampling::light_strategy::LightStrategy;
 
 /// One decision, in words.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -26,11 +26,11 @@ impl Decision {
     }
 
     /// How lights are chosen, where that was tried.
-    pub fn about_light_choice(way: LightWay, because: &str) -> Self {
-        let choice = match way {
-            LightWay::Power => "by power",
-            LightWay::Tree => "by a tree",
-            LightWay::Cells => "by what reaches the place",
+    pub fn about_light_choice(strategy: LightStrategy, because: &str) -> Self {
+        let choice = match strategy {
+            LightStrategy::Power => "by power",
+            LightStrategy::Tree => "by a tree",
+            LightStrategy::Cells => "by what reaches the place",
         };
         Self { about: "light choice", choice: choice.to_owned(), because: because.to_owned() }
     }

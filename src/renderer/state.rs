@@ -5,19 +5,19 @@ use std::sync::Arc;
 
 use crate::film::{count_in, count_word};
 
-/// Most samples per pixel of one sweep. A sweep that one device began, another ends.
-pub const MOST_SAMPLES_PER_SWEEP: u32 = 64;
+/// Most samples per pixel of one iteration. An iteration that one device began, another ends.
+pub const MOST_SAMPLES_PER_ITERATION: u32 = 64;
 
 /// A batch that is not over. Rows above `rows` are finished and were handed over; rows below have no samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BatchState {
     /// Rows of the picture that are in the making.
     pub rows: Range<u32>,
-    /// Samples per pixel of the sweeps that are over, of the batch's.
+    /// Samples per pixel of the iterations that are over, of the batch's.
     pub done: u32,
-    /// Samples per pixel of the sweep under way; 0 where none is.
-    pub sweep: u32,
-    /// So many pixels of these rows, from the first, whether they take part or not, have the samples of the sweep under way.
+    /// Samples per pixel of the iteration under way; 0 where none is.
+    pub iteration: u32,
+    /// So many pixels of these rows, from the first, whether they take part or not, have the samples of the iteration under way.
     pub reached: u32,
     /// The sums of these rows; empty where they have no samples.
     pub film: Arc<FilmState>,
@@ -27,7 +27,7 @@ pub struct BatchState {
 impl BatchState {
     /// The state of a batch that is between two bands, or not begun: these rows have no samples yet.
     pub fn before(rows: Range<u32>, tally: Tally) -> Self {
-        Self { rows, done: 0, sweep: 0, reached: 0, film: Arc::new(FilmState::empty()), tally }
+        Self { rows, done: 0, iteration: 0, reached: 0, film: Arc::new(FilmState::empty()), tally }
     }
 }
 

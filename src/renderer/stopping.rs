@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use super::observer::Observer;
 
-/// Sweeps and steps are planned to end within this share of the time that is left.
+/// Iterations and steps are planned to end within this share of the time that is left.
 pub const CAUTION: f64 = 0.95;
 /// A render that was asked to stop goes on for so long, if some pixels have no sample yet.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// A sweep that was expected to end in time goes on for so long after it.
+/// An iteration that was expected to end in time goes on for so long after it.
 const LATENESS: Duration = Duration::from_millis(500);
 /// Paths that still run on so long after the end was due are given up.
 const LONGEST_PATH: Duration = Duration::from_secs(1);

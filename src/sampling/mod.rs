@@ -19,8 +19,8 @@ pub mod hierarchical_warp;
 pub mod light_cells;
 pub mod light_list;
 pub mod light_sampler;
+pub mod light_strategy;
 pub mod light_tree;
-pub mod light_way;
 pub mod permutation;
 pub mod roulette;
 pub mod sampler;
@@ -34,7 +34,7 @@ pub use dimension::{CameraDimension, Dimension, MediumDimension, VertexDimension
 pub use environment::MapDistribution;
 pub use guide::Guide;
 pub use hierarchical_warp::{HierarchicalWarp, WarpSample};
-pub use light_cells::{LightCells, LitPoint};
+pub use light_cells::{LightCells, LightSampleContext};
 pub use light_sampler::{LightGroup, LightSampler};
 pub use light_tree::LightTree;
 pub use sampler::PathSampler;

@@ -120,18 +120,18 @@ mod tests {
         for samples in [1_u32, 2, 3, 5, 7, 12, 16, 37, 64, 100, 257] {
             let rows = f64::from(samples).sqrt().round() as u32;
             for round in [0, 5] {
-                let mut held = vec![0; samples as usize];
-                let mut on_the_line = held.clone();
+                let mut counts = vec![0; samples as usize];
+                let mut on_the_line = counts.clone();
                 for sample in round * samples..(round + 1) * samples {
                     let [x, y] = point(|d, s| stratified_bits(3, samples, d, s), sample);
                     let first_of_row = |row: u32| row * samples / rows;
                     let row = (0..rows).rfind(|&row| y >= f64::from(first_of_row(row)) / f64::from(samples)).unwrap();
                     let cells = first_of_row(row + 1) - first_of_row(row);
-                    held[(first_of_row(row) + (x * f64::from(cells)) as u32) as usize] += 1;
+                    counts[(first_of_row(row) + (x * f64::from(cells)) as u32) as usize] += 1;
                     let line = f64::from(stratified_bits(3, samples, Dimension(4), sample)) / 4_294_967_296.0;
                     on_the_line[(line * f64::from(samples)) as usize] += 1;
                 }
-                assert!(held.iter().chain(&on_the_line).all(|&count| count == 1), "{samples}: {held:?} {on_the_line:?}");
+                assert!(counts.iter().chain(&on_the_line).all(|&count| count == 1), "{samples}: {counts:?} {on_the_line:?}");
             }
         }
     }
@@ -144,12 +144,12 @@ mod tests {
             for size in 1..=level {
                 let (count, side) = (1 << (2 * size), 1 << size);
                 for part in 0..1 << (2 * (level - size)) {
-                    let mut held = vec![0; count as usize];
+                    let mut counts = vec![0; count as usize];
                     for sample in first + part * count..first + (part + 1) * count {
                         let [x, y] = point(|d, s| quadrant_bits(8, d, s), sample);
-                        held[((y * f64::from(side)) as u32 * side + (x * f64::from(side)) as u32) as usize] += 1;
+                        counts[((y * f64::from(side)) as u32 * side + (x * f64::from(side)) as u32) as usize] += 1;
                     }
-                    assert!(held.iter().all(|&count| count == 1), "level {level}, {held:?}");
+                    assert!(counts.iter().all(|&count| count == 1), "level {level}, {counts:?}");
                 }
             }
             first += 1 << (2 * level);

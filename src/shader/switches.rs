@@ -67,7 +67,7 @@ macro_rules! names_but {
 macro_rules! shapes {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         /// Kinds of primitive that a hierarchy holds.
-        const HELD: &[&str] = names_but!(Infinite "S_IN_HIERARCHY" [] $($(($sampling $capitals))?)*);
+        const IN_HIERARCHY: &[&str] = names_but!(Infinite "S_IN_HIERARCHY" [] $($(($sampling $capitals))?)*);
 
         /// Kinds of surfaces of which points are drawn by area, as lights or portals.
         const DRAWN_BY_AREA: &[&str] = names_but!(Own "_LIGHTS" [] $($(($sampling $capitals))?)*);
@@ -86,7 +86,7 @@ macro_rules! shapes {
 shape_table!(shapes);
 
 /// The contents of the hierarchy beside triangles alone; these are the first.
-const HELD_BESIDE_TRIANGLES: &[&str] = HELD.split_at(1).1;
+const IN_HIERARCHY_BESIDE_TRIANGLES: &[&str] = IN_HIERARCHY.split_at(1).1;
 
 /// A switch for each lobe in the table of materials.
 macro_rules! lobes {
@@ -164,7 +164,7 @@ const OF_FEATURES: &[Switch] = &[
     // Some normal map holds heights.
     switch("BUMP_MAPS").requires(&["NORMAL_MAPS"]),
     // Kernels walk nodes.
-    switch("BVH").one_of(HELD).excludes(&["RAY_QUERY"]),
+    switch("BVH").one_of(IN_HIERARCHY).excludes(&["RAY_QUERY"]),
     // The camera moves while the shutter is open.
     switch("CAMERA_MOTION"),
     // Surfaces know what the path carries to them.
@@ -217,7 +217,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("LIGHTS_BY_PICTURE")
         .requires(&["LIGHTS", "TEXELS", "TEXTURES", "VARYING_LIGHTS"])
         .one_of(&["AREA_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_PICTURE"]),
-    // Some delta light throws a texture.
+    // Some delta light projects a texture.
     switch("LIGHT_TEXTURES").requires(&["DELTA_LIGHTS", "TEXTURES"]),
     // Some surface encloses a medium that takes or gives light, or the camera is within one.
     switch("MEDIA"),
@@ -240,7 +240,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("NORMAL_SHADOWING").requires(&["NORMAL_MAPS"]),
     switch("ONE_LIGHT"),
     switch("ONE_SIDED"),
-    switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(HELD_BESIDE_TRIANGLES),
+    switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(IN_HIERARCHY_BESIDE_TRIANGLES),
     // Null surfaces bound media.
     switch("OPEN_BOUNDARIES").requires(&["MEDIA"]),
     switch("ORTHOGRAPHIC"),
@@ -262,7 +262,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("PRINCIPLED_TRANSMISSION"),
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
     // Acceleration structures hold a scene at rest.
-    switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
+    switch("RAY_QUERY").one_of(IN_HIERARCHY).excludes(&["MOTION"]),
     // Among them are lights.
     switch("RECTANGLES_BY_SOLID_ANGLE").requires(&["FLAT_LIGHTS_BY_SOLID_ANGLE", "QUAD_LIGHTS"]),
     switch("ROUGHNESS"),

@@ -18,7 +18,7 @@ use std::sync::Mutex;
 
 use serde::Serialize;
 
-use crate::compare::image_tests::{ImageComparison, Picture, TileSettings, compare_paired};
+use crate::compare::image_tests::{ImageComparison, ImageView, TileSettings, compare_paired};
 use crate::cpu::ReferenceRenderer;
 use crate::film::Band;
 use crate::gpu::{Device, GpuRenderer};
@@ -46,7 +46,7 @@ pub const DEFAULT_SPP: u32 = 16;
 pub struct Verdict {
     /// The scene's name.
     pub scene: String,
-    /// The name of the device that was held against the reference.
+    /// The name of the device that was compared with the reference.
     pub device: String,
     /// Columns of the pictures.
     pub width: u32,
@@ -341,7 +341,7 @@ fn follow(
 /// The paired tests of every tile and of the whole picture.
 pub fn test(first: &[[f32; 3]], second: &[[f32; 3]], width: u32) -> Result<ImageComparison, RenderError> {
     let settings = TileSettings { tile: 16, ..TileSettings::default() };
-    compare_paired(Picture { width, pixels: first }, Picture { width, pixels: second }, &settings)
+    compare_paired(ImageView { width, pixels: first }, ImageView { width, pixels: second }, &settings)
         .map_err(|error| RenderError::Internal(error.to_string()))
 }
 

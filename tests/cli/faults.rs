@@ -151,7 +151,7 @@ fn a_lost_device_leaves_the_picture_so_far() {
     if in_full("devices that never answer, and those that are lost while they are waited for") {
         cases.extend([("", "vkQueueSubmit:100@4:never"), ("--time-limit 600", "vkWaitSemaphores:150@4:lost")]);
     }
-    // The film is read every two seconds, between two sweeps.
+    // The film is read every two seconds, between two iterations.
     for (goal, fault) in cases {
         fs::write(place.path("a.exr"), "what was there before").expect("a file");
         let render =

@@ -4,7 +4,7 @@ use gpt::output::Channels;
 
 use super::*;
 
-/// A veil of half opacity before the left of a wall; behind the right edge of the wall there is nothing.
+/// A translucent surface of half opacity before the left of a wall; behind the right edge of the wall there is nothing.
 const SCENE: &str = r#"
 film.size = [16, 8]
 render.spp = 64
@@ -57,11 +57,11 @@ fn cover(file: &Channels, layer: &str, x: usize, y: usize) -> Vec<(String, f32)>
 fn mattes_say_what_covers_a_pixel_and_how_much_of_it() {
     let place = Workplace::new();
     let file = file(&place, "--device cpu");
-    let veiled = cover(&file, "CryptoMaterial", 3, 4);
-    assert_eq!(veiled.len(), 2, "{veiled:?}");
+    let covered = cover(&file, "CryptoMaterial", 3, 4);
+    assert_eq!(covered.len(), 2, "{covered:?}");
     assert!(
-        veiled.iter().all(|(_, share)| (share - 0.5).abs() < 0.08) && (veiled[0].1 + veiled[1].1 - 1.0).abs() < 1e-6,
-        "{veiled:?}"
+        covered.iter().all(|(_, share)| (share - 0.5).abs() < 0.08) && (covered[0].1 + covered[1].1 - 1.0).abs() < 1e-6,
+        "{covered:?}"
     );
     assert_eq!(cover(&file, "CryptoMaterial", 10, 4), [("küche".to_owned(), 1.0)]);
     // The wall ends a quarter into this pixel, which is a quarter of a unit wide.

@@ -10,4 +10,4 @@ pub mod pixel_bits;
 pub mod ray_queries;
 pub mod scenes;
 pub mod sphere;
-pub mod veils;
+pub mod translucent_surfaces;

@@ -3,7 +3,7 @@
 
 use crate::common::effort::in_full;
 use glam::DVec3;
-use gpt::compare::{ImageComparison, Picture, TileSettings, compare_replications};
+use gpt::compare::{ImageComparison, ImageView, TileSettings, compare_replications};
 use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
@@ -39,8 +39,8 @@ fn replications(scene: &Scene, first_seed: u32) -> Vec<Pixels> {
 }
 
 fn compare(first: &[Pixels], second: &[Pixels]) -> ImageComparison {
-    fn of(all: &[Pixels]) -> Vec<Picture<'_>> {
-        all.iter().map(|pixels| Picture { width: SIDE, pixels }).collect()
+    fn of(all: &[Pixels]) -> Vec<ImageView<'_>> {
+        all.iter().map(|pixels| ImageView { width: SIDE, pixels }).collect()
     }
     let settings = TileSettings { tile: 8, ..TileSettings::default() };
     compare_replications(&of(first), &of(second), &settings).expect("the pictures have the same size")

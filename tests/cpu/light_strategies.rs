@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::common::effort::in_full;
 use glam::Vec3;
-use gpt::compare::image_tests::{Picture, TileSettings, compare_replications};
+use gpt::compare::image_tests::{ImageView, TileSettings, compare_replications};
 use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
 use gpt::learn::settle;
@@ -82,7 +82,7 @@ fn replications(scene: &Scene, first: u32) -> Vec<Vec<[f32; 3]>> {
 
 fn agree(first: &[Vec<[f32; 3]>], second: &[Vec<[f32; 3]>]) -> bool {
     let [first, second] =
-        [first, second].map(|all| all.iter().map(|pixels| Picture { width: SIDE, pixels }).collect::<Vec<Picture>>());
+        [first, second].map(|all| all.iter().map(|pixels| ImageView { width: SIDE, pixels }).collect::<Vec<ImageView>>());
     let settings = TileSettings { tile: 8, ..TileSettings::default() };
     compare_replications(&first, &second, &settings).expect("the pictures are of one size").agrees()
 }

@@ -99,7 +99,7 @@ fn samples_are_counted_beyond_the_numbers_of_single_precision() {
     let state = BatchState {
         rows: 0..4,
         done: BEFORE,
-        sweep: 0,
+        iteration: 0,
         reached: 0,
         film: Arc::new(FilmState::Double { sums: vec![[sum[0], sum[1], sum[2], 0.0]; 16], samples: vec![BEFORE; 16] }),
         tally: Tally::default(),
@@ -243,7 +243,7 @@ fn an_interrupted_picture_is_whole() {
     }
 }
 
-/// Pixels differ where a render ends in the middle of a sweep. Each has, bit for bit, what a render of as many samples gives it.
+/// Pixels differ where a render ends in the middle of an iteration. Each has, bit for bit, what a render of as many samples gives it.
 #[test]
 fn pixels_say_how_many_samples_they_have() {
     let mut scene = load::load(Some("spheres")).expect("it is built in");

@@ -29,8 +29,8 @@ fn ways() -> Vec<(&'static str, PlanOptions)> {
     ]
 }
 
-/// A point of a floor below a point light, and veils between them; the camera looks from below the veils.
-const VEILS: &str = r#"
+/// A point of a floor below a point light, and translucent surfaces between them; the camera looks from below the translucent surfaces.
+const SHEETS: &str = r#"
 [film]
 size = [2, 2]
 [render]
@@ -97,7 +97,7 @@ fn green(pixels: &[[f32; 3]]) -> f64 {
 
 /// A point light's light is multiplied by what each surface in between lets through, whatever traces the shadow ray.
 #[test]
-fn veils_multiply_the_light_of_a_point_light() {
+fn translucent_surfaces_multiply_the_light_of_a_point_light() {
     // ρ/π · I/d²
     let free = 0.5 / std::f64::consts::PI * 2.0 / 16.0;
     let ball = "[[shape]]\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = 0.5\nmaterial = \"veil\"\n".to_owned();
@@ -107,9 +107,9 @@ fn veils_multiply_the_light_of_a_point_light() {
     let round = ball.clone() + &tube("[-1, 2.6, 0.1]", "[1, 1.4, 0.1]");
     let rows = [
         ("nothing", String::new(), 1.0),
-        ("a veil", sheet("veil", 1.0, true), 0.6),
-        ("a veil blended with nothing", sheet("half", 1.0, true), 0.8),
-        ("two veils", sheet("veil", 1.0, true) + &sheet("half", 2.0, false), 0.48),
+        ("a translucent surface", sheet("veil", 1.0, true), 0.6),
+        ("a translucent surface blended with nothing", sheet("half", 1.0, true), 0.8),
+        ("two translucent surfaces", sheet("veil", 1.0, true) + &sheet("half", 2.0, false), 0.48),
         ("both sides of a ball", ball.clone(), 0.36),
         ("both walls of a tube", tube("[-1, 3, 0.2]", "[1, 3, 0.2]"), 0.36),
         ("one wall of a tube that the light is in", tube("[-1, 4, 0.2]", "[1, 4, 0.2]"), 0.6),
@@ -126,9 +126,9 @@ fn veils_multiply_the_light_of_a_point_light() {
         ),
         ("an opaque sheet behind", sheet("veil", 1.0, true) + &sheet("floor", 2.0, true), 0.0),
     ];
-    let everywhere = in_full("each kind of veil by every way to run");
+    let everywhere = in_full("each kind of translucent surface by every way to run");
     for (what, shapes, share) in rows {
-        let scene = load(&(VEILS.to_owned() + &shapes));
+        let scene = load(&(SHEETS.to_owned() + &shapes));
         let check = |device: &str, found: f64| {
             assert!((found - share * free).abs() < 2e-6 * free, "{what}, {device}: {found} and not {}", share * free);
         };
@@ -147,8 +147,8 @@ fn veils_multiply_the_light_of_a_point_light() {
     }
 }
 
-/// A scene behind a veil is as bright as the opacity says, wherever a map bends the veil's normals.
-/// The veil itself is black here, so every path goes through, and carries that share exactly.
+/// A scene behind a translucent surface is as bright as the opacity says, wherever a map bends the translucent surface's normals.
+/// The translucent surface itself is black here, so every path goes through, and carries that share exactly.
 #[test]
 fn bent_normals_do_not_dim_what_is_behind() {
     let text = |bump: &str, reflectance: f64| {
@@ -169,7 +169,7 @@ shape = [{{ type = "rectangle", corner = [-30, 0, 30], edge_u = [60, 0, 0], edge
     for bump in ["", bump, &mirrored] {
         let scene = load(&text(bump, 0.0));
         let check = |device: &str, pixels: &[[f32; 3]]| {
-            // The last rows see the veil.
+            // The last rows see the translucent surface.
             for [r, g, b] in &pixels[32..] {
                 for (value, expected) in [(r, 0.6), (g, 1.2), (b, 2.4)] {
                     assert!(
@@ -192,7 +192,7 @@ shape = [{{ type = "rectangle", corner = [-30, 0, 30], edge_u = [60, 0, 0], edge
     assert!(mean(bump) < 0.99 * mean(&bump.replace("true", "false")), "{} {}", mean(bump), mean(&bump.replace("true", "false")));
 }
 
-/// Veils of every kind before an area light, a round one, a map of the sky, and glossy and diffuse surfaces that see them.
+/// Translucent surfaces of every kind before an area light, a round one, a map of the sky, and glossy and diffuse surfaces that see them.
 const ROOM: &str = r#"
 [film]
 size = [32, 24]
@@ -313,10 +313,10 @@ fn verdict(device: &gpt::gpu::Device, on_gpu: &Scene, scene: &Scene, options: &P
 }
 
 #[test]
-fn paths_and_shadow_rays_through_veils_agree() {
+fn paths_and_shadow_rays_through_translucent_surfaces_agree() {
     let Some(device) = DEVICE.as_ref() else { return };
     let scene = load(ROOM);
-    let everywhere = in_full("paths through veils by all four ways to run");
+    let everywhere = in_full("paths through translucent surfaces by all four ways to run");
     for (way, options) in ways().into_iter().filter(|(_, options)| everywhere || options.traversal == TraversalChoice::Auto) {
         let verdict = verdict(device, &scene, &scene, &options);
         assert!(verdict.agrees, "{way}: {verdict:#?}");
@@ -328,7 +328,7 @@ fn paths_and_shadow_rays_through_veils_agree() {
         ("pick", |scene| scene.render.blend = BlendMode::Pick),
         ("several light samples", |scene| (scene.render.light_samples, scene.render.light_samples_depth) = (3.into(), 2)),
     ];
-    let everywhere = in_full("estimators through veils by either way to run");
+    let everywhere = in_full("estimators through translucent surfaces by either way to run");
     for (index, (what, change)) in changes.into_iter().enumerate() {
         let mut scene = load(ROOM);
         change(&mut scene);
@@ -337,7 +337,7 @@ fn paths_and_shadow_rays_through_veils_agree() {
             assert!(verdict.agrees, "{what}, {way}: {verdict:#?}");
         }
     }
-    // A veil that is a little thinner on one of the devices is noticed.
+    // A translucent surface that is a little thinner on one of the devices is noticed.
     let thinner = load(&ROOM.replace("opacity = 0.35", "opacity = 0.34"));
     assert!(!verdict(device, &scene, &thinner, &PlanOptions::default()).agrees);
 }
@@ -360,10 +360,10 @@ fn means(device: &gpt::gpu::Device, scene: &Scene, options: &PlanOptions) -> Mom
         .collect()
 }
 
-/// Light samples through veils, and the weights of both ways of finding a light behind them, leave the mean where paths without light samples
+/// Light samples through translucent surfaces, and the weights of both ways of finding a light behind them, leave the mean where paths without light samples
 /// have it. Weights that do not add up to 1, and a mean 1 % off, are noticed.
 #[test]
-fn light_behind_veils_has_the_mean_of_paths_alone() {
+fn light_behind_translucent_surfaces_has_the_mean_of_paths_alone() {
     let Some(device) = DEVICE.as_ref() else { return };
     let mut scene = load(ROOM);
     (scene.render.spp, scene.render.sampler) = (64, SamplerKind::Independent);
@@ -395,11 +395,11 @@ fn opaque_scenes_compile_none_of_it() {
         let packed = PackedScene::new(&scene).expect("it packs");
         Plan::new(&scene, &packed, &DeviceLimits::default(), &PlanOptions::default()).expect("it fits")
     };
-    let transparent = plan(&(VEILS.to_owned() + &sheet("veil", 1.0, true)));
+    let transparent = plan(&(SHEETS.to_owned() + &sheet("veil", 1.0, true)));
     assert!(transparent.switches.enabled.contains("TRANSPARENT_SHADOWS"));
-    // Veils that no surface is made of, and one of opacity 1.
-    let opaque = plan(&(VEILS.replace("opacity = 0.4", "opacity = 1") + &sheet("veil", 1.0, true)));
-    let without = plan(&(VEILS.replace("opacity = 0.4", "") + &sheet("veil", 1.0, true)));
+    // Translucent surfaces that no surface is made of, and one of opacity 1.
+    let opaque = plan(&(SHEETS.replace("opacity = 0.4", "opacity = 1") + &sheet("veil", 1.0, true)));
+    let without = plan(&(SHEETS.replace("opacity = 0.4", "") + &sheet("veil", 1.0, true)));
     assert!(!opaque.switches.enabled.contains("TRANSPARENT_SHADOWS") && !opaque.switches.enabled.contains("BLENDS"));
     assert_eq!(opaque.switches, without.switches);
 }

@@ -132,7 +132,7 @@ fn verified_they_are_used_unasked() {
 
 /// A shadow ray meets each shape at its nearest point, and must not come back to it.
 #[test]
-fn shadow_rays_go_on_behind_veils_of_every_shape() {
+fn shadow_rays_go_on_behind_translucent_surfaces_of_every_shape() {
     let Some(device) = RAY_QUERY_DEVICE.as_ref() else { return };
     let mut scene = small("arbour", [32, 20], 2);
     let expected = picture(device, &scene, &by_nodes());
@@ -141,10 +141,10 @@ fn shadow_rays_go_on_behind_veils_of_every_shape() {
     assert!(picture(device, &scene, &by_ray_queries()) != expected, "the control: other samples");
 }
 
-/// Far from the middle, our distance to a veil and the device's differ by more than the step behind it. A shadow ray must neither meet the veil for
+/// Far from the middle, our distance to a translucent surface and the device's differ by more than the step behind it. A shadow ray must neither meet the translucent surface for
 /// ever nor count it twice.
 #[test]
-fn veils_far_from_the_middle_are_passed_once() {
+fn translucent_surfaces_far_from_the_middle_are_passed_once() {
     if RAY_QUERY_DEVICE.is_none() {
         return;
     }
@@ -166,7 +166,7 @@ fn veils_far_from_the_middle_are_passed_once() {
                 height + 7.0 * slope
             );
         }
-        load_toml_str(&text, "veils", Path::new("")).expect("the scene is valid")
+        load_toml_str(&text, "translucent surfaces", Path::new("")).expect("the scene is valid")
     };
     // A hang is a lost device.
     let hasty = PlanOptions { device_timeout: Some(Duration::from_secs(60)), ..by_ray_queries() };
@@ -179,7 +179,7 @@ fn veils_far_from_the_middle_are_passed_once() {
         let [asked, ours] = [by_ray_queries(), by_nodes()].map(|options| mean(&scene(opacity), &options));
         println!("opacity {opacity}: {asked} by ray queries, {ours} by nodes");
         assert!((asked / ours - 1.0).abs() < 1e-3, "opacity {opacity}: {asked} by ray queries, {ours} by nodes");
-        // The control: one veil in twenty counted twice would show.
+        // The control: one translucent surface in twenty counted twice would show.
         let thicker = mean(&scene(opacity + 0.0025), &by_ray_queries());
         assert!((thicker / ours - 1.0).abs() > 1e-2, "opacity {opacity}: {thicker}");
     }

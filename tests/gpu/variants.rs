@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::common::device::{DEVICE, with_limits};
 use crate::common::effort::in_full;
 use crate::common::pixel_bits::pixel_bits;
-use crate::common::veils::veils;
+use crate::common::translucent_surfaces::translucent_surfaces;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{Chunks, FilmStorage, PlanOptions, StageMode, TraversalChoice};
@@ -152,7 +152,7 @@ fn selected_pixels(device: &Device, scene: &Scene, stages: StageMode, traversal:
 }
 
 /// The wavefront has all shadow rays of a path in one place of a queue, and one invocation adds them up in the order of the samples, as the
-/// kernel does that traces whole paths. So pictures are the same, bit for bit, and from run to run, with veils that rays pass through, with
+/// kernel does that traces whole paths. So pictures are the same, bit for bit, and from run to run, with translucent surfaces that rays pass through, with
 /// shapes that move, and where pixels are listed.
 #[test]
 fn several_light_samples_are_the_same_in_every_kernel() {
@@ -167,13 +167,14 @@ fn several_light_samples_are_the_same_in_every_kernel() {
         ("cornell", cornell.clone(), TraversalChoice::default(), 1, 1),
         ("cornell", cornell, TraversalChoice::default(), 16, 3),
         ("moving", moving, TraversalChoice::default(), 3, 3),
-        ("veils", veils(), TraversalChoice::default(), 4, 1),
-        ("veils in a hierarchy", veils(), TraversalChoice::Bvh, 2, 2),
+        ("translucent surfaces", translucent_surfaces(), TraversalChoice::default(), 4, 1),
+        ("translucent surfaces in a hierarchy", translucent_surfaces(), TraversalChoice::Bvh, 2, 2),
     ];
-    let everywhere =
-        in_full("light samples of a knot, of the Cornell box, of moving shapes and of veils as constants in every kernel");
+    let everywhere = in_full(
+        "light samples of a knot, of the Cornell box, of moving shapes and of translucent surfaces as constants in every kernel",
+    );
     for (name, mut scene, traversal, count, depth) in
-        cases.into_iter().filter(|(name, ..)| everywhere || *name == "veils in a hierarchy")
+        cases.into_iter().filter(|(name, ..)| everywhere || *name == "translucent surfaces in a hierarchy")
     {
         (scene.render.light_samples, scene.render.light_samples_depth, scene.render.spp) = (count.into(), depth, 5);
         let what = format!("{name}, {count} light samples at {depth} surfaces");

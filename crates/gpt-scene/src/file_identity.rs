@@ -49,7 +49,7 @@ pub fn follow_links(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..MOST_LINKS {
         let Ok(to) = fs::read_link(&path) else {
             let (folder, name) = (folder_of(&path), path.file_name());
-            // A folder that is missing is told by who looks for it.
+            // A folder that is missing is reported by who looks for it.
             return Ok(match (fs::canonicalize(folder), name) {
                 (Ok(folder), Some(name)) => folder.join(name),
                 _ => fs::canonicalize(&path).unwrap_or(path),

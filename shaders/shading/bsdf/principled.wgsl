@@ -103,7 +103,7 @@ fn sample_dispersed(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u:
     var probability = 0.0;
     for (var channel = 0u; channel < 3u; channel++) {
         let other = principled_at(lobe_of_channel(lobe, channel), surface, wo);
-        // Channels that are bent otherwise come from elsewhere.
+        // Channels that are refracted otherwise come from elsewhere.
         if drawn.way != PRINCIPLED_TRANSMITTED || other.eta == p.eta {
             let light = principled_of_smooth(other, principled_shares(other, surface, wo), surface, wo, drawn);
             value[channel] = light.value[channel];

@@ -1,4 +1,4 @@
-// Rough glass of microfacets whose channels are not bent or reflected alike.
+// Rough glass of microfacets whose channels are not refracted or reflected alike.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/microfacet/dielectric.wgsl

@@ -1,4 +1,4 @@
-// Smooth glass whose channels are not bent or reflected alike, a delta lobe.
+// Smooth glass whose channels are not refracted or reflected alike, a delta lobe.
 #import shading/microfacet/dielectric.wgsl
 #import shading/microfacet/spectral_dielectric.wgsl
 #import shading/microfacet/thin_film.wgsl

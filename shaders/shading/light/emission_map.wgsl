@@ -1,4 +1,4 @@
-// Lamps whose points are drawn by what they show: the density lies over the unit square that their texture coordinates are unrolled to
+// Area lights whose points are sampled by what they emit: the density lies over the unit square that their texture coordinates are unrolled to
 // (src/emission_map/unrolled.rs).
 #import core/layout.wgsl
 #import core/math.wgsl

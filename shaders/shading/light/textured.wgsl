@@ -1,4 +1,4 @@
-// Light of lamps whose radiance varies over them: by textures, by blends, or by the direction in which it leaves.
+// Area lights whose radiance varies over them: by textures, by blends, or by the direction in which it leaves.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/light/emission_map.wgsl
@@ -55,9 +55,9 @@ fn shown_sphere_sample(light: u32, kind_flags: u32, reference: vec3<f32>, two_si
 
 // Density with which that draws the ray's direction, which met the sphere at this surface.
 fn shown_sphere_pdf(surface: Surface, ray: Ray, pmf: f32) -> f32 {
-    let to_lamp = surface.position - ray.origin;
+    let to_light = surface.position - ray.origin;
     let whole = 2.0 * TWO_PI * surface.sphere.w * surface.sphere.w;
-    let by_area = pmf * dot(to_lamp, to_lamp) / (abs(dot(ray.direction, surface.facing_normal)) * whole);
+    let by_area = pmf * dot(to_light, to_light) / (abs(dot(ray.direction, surface.facing_normal)) * whole);
     return by_area * shown_density_on_sphere(surface.light, surface.uv.xy);
 }
 

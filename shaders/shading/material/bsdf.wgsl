@@ -76,9 +76,9 @@ struct Scattering {
 fn shadowed(scattering: Scattering, surface: Surface, light_wi: vec3<f32>) -> Scattering {
     var found = scattering;
 #if NORMAL_SHADOWING
-    found.towards_light.value *= normal_shadowing(surface.unbent_normal, surface.shading_normal, light_wi);
+    found.towards_light.value *= normal_shadowing(surface.unperturbed_normal, surface.shading_normal, light_wi);
     if !found.drawn.is_null {
-        found.drawn.weight *= normal_shadowing(surface.unbent_normal, surface.shading_normal, found.drawn.wi);
+        found.drawn.weight *= normal_shadowing(surface.unperturbed_normal, surface.shading_normal, found.drawn.wi);
     }
 #endif
     return found;

@@ -10,7 +10,7 @@ struct VolumeCrossing {
     // The ray in index space; distances are those of the scene.
     origin: vec3<f32>,
     direction: vec3<f32>,
-    // Distance up to which segments were told, and the one at which they end.
+    // Distance up to which segments were reported, and the one at which they end.
     at: f32,
     end: f32,
     // Distances at which the ray is in the grid's box; equal ones: it is not.

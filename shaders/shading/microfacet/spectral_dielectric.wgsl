@@ -94,7 +94,7 @@ fn sample_delta_spectral(lobe: Lobe, dielectric: SpectralDielectric, surface: Su
     if dot(wi, surface.facing_normal) >= 0.0 {
         return no_sample();
     }
-    // The channels that are bent alike.
+    // The channels that are refracted alike.
     let alike = select(BLACK, WHITE, etas == Spectrum(eta));
     let probability = dot(alike, ways.transmission);
     return BsdfSample(wi, alike * lobe.color1 * ways.transmitted / (probability * eta * eta), -1.0, eta * eta, false);

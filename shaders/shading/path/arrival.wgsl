@@ -111,7 +111,7 @@ fn arrive_through_medium(path: Path, ray_length: f32, vertex: u32) -> Arrival {
     }
     var pivot = LightPlace(false, vec3<f32>(0.0));
     if HAS_LIGHTS && !HAS_BY_DISTANCE {
-        if (medium.flags & MEDIUM_IS_LIT) != 0u {
+        if (medium.flags & MEDIUM_IS_LIGHT_SAMPLED) != 0u {
             pivot = pivot_of(path, medium.extinction, ray_length, vertex);
         }
     }

@@ -47,8 +47,8 @@ fn escaped_radiance(path: Path, depth: u32) -> Spectrum {
     var weight = 1.0;
     // After the camera or a delta lobe no light sample could have found it.
     if HAS_ENVIRONMENT_SAMPLED && path.pdf_solid_angle >= 0.0 {
-        let ray = ray_from_lit_vertex(path);
-        let of_one = environment_pdf_solid_angle(ray, light_context(ray.origin, facing_of_lit_vertex(path)));
+        let ray = ray_from_reference_point(path);
+        let of_one = environment_pdf_solid_angle(ray, light_context(ray.origin, facing_at_reference_point(path)));
         let pdf_light = f32(light_samples_at(depth - 1u)) * of_one;
         weight = emission_weight(path.pdf_solid_angle, pdf_light);
         radiance *= weight;
@@ -65,7 +65,7 @@ fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> Spectrum {
         if max_component(emitted) > 0.0 {
             var weight = 1.0;
             if HAS_LIGHTS {
-                let of_one = light_pdf_solid_angle(ray_from_lit_vertex(path), facing_of_lit_vertex(path), surface);
+                let of_one = light_pdf_solid_angle(ray_from_reference_point(path), facing_at_reference_point(path), surface);
                 let pdf_light = f32(light_samples_at(depth - 1u)) * of_one;
                 weight = emission_weight(path.pdf_solid_angle, pdf_light);
             }
@@ -138,12 +138,12 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
 }
 
 // The shadow ray of light sample `number`, not the first, of a vertex that takes more.
-fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
-    let depth = depth_at(lit.path, lit.vertex);
-    let light_bits = further_light_bits(lit.path.pixel, lit.path.sample_in_pass, lit.vertex, depth, number);
-    let light = sample_light(shading_point(lit.surface), facing_of(lit.surface), light_bits);
-    let value = evaluate_scatterer(lit.scatterer, lit.surface, -lit.path.ray.direction, light.wi);
-    return shadow_ray(lit.path, lit.surface, depth, light, light_bits, value);
+fn further_shadow_ray(shaded: ShadedVertex, number: u32) -> ShadowRay {
+    let depth = depth_at(shaded.path, shaded.vertex);
+    let light_bits = further_light_bits(shaded.path.pixel, shaded.path.sample_in_pass, shaded.vertex, depth, number);
+    let light = sample_light(shading_point(shaded.surface), facing_of(shaded.surface), light_bits);
+    let value = evaluate_scatterer(shaded.scatterer, shaded.surface, -shaded.path.ray.direction, light.wi);
+    return shadow_ray(shaded.path, shaded.surface, depth, light, light_bits, value);
 }
 
 #if !LAYER_OF_SURFACES
@@ -227,7 +227,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     if samples_light {
         shading.light_samples = light_samples_at(depth);
         shading.shadow = shadow_ray(incoming, surface, depth, light, random, scattering.towards_light);
-        shading.lit = LitVertex(incoming, vertex, surface, scatterer);
+        shading.shaded = ShadedVertex(incoming, vertex, surface, scatterer);
     }
 
     let drawn = scattering.drawn;

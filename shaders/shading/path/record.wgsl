@@ -21,9 +21,9 @@ struct Path {
     // Vertices at null surfaces so far.
     null_vertices: u32,
     // With LIGHT_CELLS, the way that the surface faces from which light was last sampled, as normal_facing says.
-    lit_facing: u32,
-    // With TRANSPARENT_SHADOWS, the origin of the ray that went on through the null surfaces last met: light was sampled from there.
-    lit_from: vec3<f32>,
+    reference_facing: u32,
+    // With TRANSPARENT_SHADOWS, the reference point of the last light sample: the origin of the ray that went on through the null surfaces last met.
+    reference_point: vec3<f32>,
 #if MEDIA
     // The media around the ray.
     media: MediumStack,
@@ -46,7 +46,7 @@ struct ShadowRay {
 }
 
 // The start of light samples of a vertex.
-struct LitVertex {
+struct ShadedVertex {
     // The path as it arrived there.
     path: Path,
     vertex: u32,
@@ -63,7 +63,7 @@ struct Shading {
     // How many light samples are taken here; the first one's shadow ray; what further_shadow_ray makes the others of.
     light_samples: u32,
     shadow: ShadowRay,
-    lit: LitVertex,
+    shaded: ShadedVertex,
 }
 
 // A path on its first edge.
@@ -75,7 +75,7 @@ fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
     path.roulette_scale = select(1.0, 0.0, HAS_GUIDE);
     path.pixel = pixel;
     path.sample_in_pass = sample_in_pass;
-    path.lit_from = ray.origin;
+    path.reference_point = ray.origin;
     if HAS_MEDIA {
         path.media = around_camera();
     }
@@ -84,9 +84,9 @@ fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
 
 // The path's ray from where light was last sampled: shadow rays from there meet the same surfaces as the path, and go on through null ones
 // as it does. So what both find is shared out by the densities that they have there.
-fn ray_from_lit_vertex(path: Path) -> Ray {
+fn ray_from_reference_point(path: Path) -> Ray {
     if HAS_TRANSPARENT_SHADOWS {
-        return Ray(path.lit_from, path.ray.direction);
+        return Ray(path.reference_point, path.ray.direction);
     } else {
         return path.ray;
     }
@@ -102,9 +102,9 @@ fn facing_of(surface: Surface) -> u32 {
 }
 
 // The way that the surface faces from which light was last sampled; else 0.
-fn facing_of_lit_vertex(path: Path) -> u32 {
+fn facing_at_reference_point(path: Path) -> u32 {
     if HAS_LIGHT_CELLS {
-        return path.lit_facing;
+        return path.reference_facing;
     } else {
         return 0u;
     }
@@ -155,12 +155,12 @@ fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput
     path.roulette_scale = roulette_scale;
     path.null_vertices += select(0u, 1u, drawn.is_null);
     if HAS_LIGHT_CELLS {
-        path.lit_facing = select(facing_of(surface), incoming.lit_facing, drawn.is_null);
+        path.reference_facing = select(facing_of(surface), incoming.reference_facing, drawn.is_null);
     }
     if HAS_TRANSPARENT_SHADOWS {
         // Through a null surface goes the ray that was drawn before.
         path.pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);
-        path.lit_from = select(path.ray.origin, incoming.lit_from, drawn.is_null);
+        path.reference_point = select(path.ray.origin, incoming.reference_point, drawn.is_null);
     }
     if HAS_MEDIA {
         path.way_before = way_before(surface, path.ray);

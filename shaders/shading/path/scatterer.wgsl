@@ -67,7 +67,7 @@ fn evaluate_scatterer(scatterer: Scatterer, surface: Surface, wo: vec3<f32>, wi:
     var value = evaluate_bsdf(scatterer.bsdf, surface, wo, wi);
 #endif
     if HAS_NORMAL_SHADOWING {
-        value.value *= normal_shadowing(surface.unbent_normal, surface.shading_normal, wi);
+        value.value *= normal_shadowing(surface.unperturbed_normal, surface.shading_normal, wi);
     }
     return value;
 }

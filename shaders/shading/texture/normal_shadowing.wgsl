@@ -6,13 +6,13 @@
 #import shading/texture/texture.wgsl
 
 // The normals of the material's map are shadowed.
-fn shadows_bent_normals(material: u32) -> bool {
+fn shadows_perturbed_normals(material: u32) -> bool {
     let texture = bitcast<u32>(tables[material * MATERIAL_WORDS + 4u].y);
     return texture != NONE && (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_SHADOWS) != 0u;
 }
 
 // The material's map mirrors normals that it turns away from the viewer.
-fn mirrors_bent_normals(material: u32) -> bool {
+fn mirrors_perturbed_normals(material: u32) -> bool {
     let texture = bitcast<u32>(tables[material * MATERIAL_WORDS + 4u].y);
     return texture != NONE && (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_MIRRORS) != 0u;
 }

@@ -1,7 +1,7 @@
 use approx::assert_relative_eq;
 
 use super::*;
-use crate::bench::interval::Verdict;
+use crate::bench::interval::IntervalVerdict;
 use crate::bench::schedule::observe_schedule;
 use crate::bench::subject::Subject;
 use crate::bench::synthetic::Synthetic;
@@ -35,20 +35,20 @@ fn schedule(seed: u32) -> SampleSchedule {
 #[test]
 fn a_known_variance_is_reported() {
     let (measurements, levels) = (40, 5);
-    let mut held = [0.0, 0.0];
+    let mut covered = [0.0, 0.0];
     for seed in 0..measurements {
         let setting = Synthetic { sigma: 0.2, ..Synthetic::default() };
         let (observations, reference) = measure(vec![setting], Some(256), &schedule(seed));
         for level in curve(&observations[0], &reference, &schedule(seed)).levels {
             let truth = 0.04 / f64::from(level.spp);
-            held[0] += f64::from(u8::from(level.mse.contains(truth)));
-            held[1] += f64::from(u8::from(level.mse.contains(1.1 * truth)));
+            covered[0] += f64::from(u8::from(level.mse.contains(truth)));
+            covered[1] += f64::from(u8::from(level.mse.contains(1.1 * truth)));
         }
     }
     // The reference's parts have the same seeds each time, so its small error is shared: a loose binomial bound, 4.5 deviations.
-    let share = held[0] / f64::from(measurements * levels);
+    let share = covered[0] / f64::from(measurements * levels);
     assert!((share - 0.95).abs() < 4.5 * (0.95 * 0.05 / 200.0_f64).sqrt(), "{share} of the intervals hold the truth");
-    assert!(held[1] / 200.0 < 0.2, "{} of the intervals hold 10 % too much", held[1]);
+    assert!(covered[1] / 200.0 < 0.2, "{} of the intervals hold 10 % too much", covered[1]);
 }
 
 #[test]
@@ -123,7 +123,7 @@ fn a_slowdown_of_ten_per_cent_is_seen() {
         let (observations, reference) = measure(pair(1.1, 0.2, seed.into()), None, &schedule);
         let comparison = compare_settings(&observations[1], &observations[0], &reference, Metric::Mse);
         let time = comparison.time_at_equal_samples;
-        assert_eq!(time.verdict, Verdict::More, "{time:?}");
+        assert_eq!(time.verdict, IntervalVerdict::More, "{time:?}");
         assert!((time.interval.estimate - 1.1).abs() < 0.04, "{time:?}");
         // Equal samples have equal errors, so at equal time the slower setting is worse by its slowness.
         assert!((comparison.efficiency.interval.estimate * 1.1 - 1.0).abs() < 0.05, "{comparison:?}");
@@ -144,7 +144,7 @@ fn a_setting_against_itself_is_inside_the_noise() {
         let (observations, reference) = measure(pair(1.0, 0.2, u64::from(seed) * 7 + 3), None, &schedule(seed));
         let comparison = compare_settings(&observations[1], &observations[0], &reference, Metric::Mse);
         for (count, ratio) in seen_apart.iter_mut().zip([comparison.time_at_equal_samples, comparison.efficiency]) {
-            *count += u32::from(ratio.verdict != Verdict::InsideTheNoise);
+            *count += u32::from(ratio.verdict != IntervalVerdict::InsideTheNoise);
             confidence = ratio.interval.confidence;
             assert!((ratio.interval.estimate - 1.0).abs() < 0.05, "{ratio:?}");
         }
@@ -163,7 +163,7 @@ fn less_noise_for_more_time_is_weighed() {
     assert_relative_eq!(comparison.error_at_equal_samples.interval.estimate, 0.5, max_relative = 0.03);
     assert_relative_eq!(comparison.efficiency.interval.estimate, 4.0 / 3.0, max_relative = 0.06);
     assert_relative_eq!(comparison.time_to_equal_error.unwrap().ratio.interval.estimate, 0.75, max_relative = 0.06);
-    assert_eq!(comparison.efficiency.verdict, Verdict::More);
+    assert_eq!(comparison.efficiency.verdict, IntervalVerdict::More);
 }
 
 #[test]

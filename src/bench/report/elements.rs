@@ -2,7 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::bench::interval::{Interval, Ratio, Spread, Verdict};
+use crate::bench::interval::{Interval, IntervalVerdict, Ratio, Spread};
 use crate::bench::machine::Machine;
 use crate::bench::subject::BenchError;
 
@@ -72,14 +72,14 @@ pub(super) fn spread(spread: &Spread) -> Markup {
 
 pub(super) fn ratio(ratio: &Ratio) -> Markup {
     let class = match ratio.verdict {
-        Verdict::Less => "less",
-        Verdict::More => "more",
-        Verdict::InsideTheNoise | Verdict::TooFewRuns => "noise",
+        IntervalVerdict::Less => "less",
+        IntervalVerdict::More => "more",
+        IntervalVerdict::InsideTheNoise | IntervalVerdict::TooFewRuns => "noise",
     };
     html! {
         span class=(class) { (number(ratio.interval.estimate)) } " "
         span class="range" { "(" (number(ratio.interval.low)) "–" (number(ratio.interval.high)) ")" }
-        @if !matches!(ratio.verdict, Verdict::Less | Verdict::More) { " " em { (ratio.verdict.label()) } }
+        @if !matches!(ratio.verdict, IntervalVerdict::Less | IntervalVerdict::More) { " " em { (ratio.verdict.label()) } }
     }
 }
 
@@ -87,7 +87,7 @@ pub(super) fn ratio(ratio: &Ratio) -> Markup {
 pub(super) fn ratio_text(ratio: &Ratio) -> String {
     let Interval { estimate, low, high, .. } = ratio.interval;
     let verdict = match ratio.verdict {
-        Verdict::Less | Verdict::More => String::new(),
+        IntervalVerdict::Less | IntervalVerdict::More => String::new(),
         other => format!(", {}", other.label()),
     };
     format!("{} ({}–{}{verdict})", number(estimate), number(low), number(high))

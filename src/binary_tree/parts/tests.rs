@@ -81,12 +81,12 @@ fn hits(tree: &Bvh2, triangles: &[[Vec3A; 3]]) -> (Vec<Option<u32>>, usize) {
 }
 
 /// Two parts that go through each other, and one that rests.
-struct Stage {
+struct MovingModel {
     rest: Vec<[Vec3A; 3]>,
     count: u32,
 }
 
-impl Stage {
+impl MovingModel {
     fn at(&self, angle: f32, offset: f32) -> Vec<[Vec3A; 3]> {
         let turn = |angle: f32, offset: f32| {
             Affine3A::from_rotation_translation(Quat::from_axis_angle(Vec3::new(0.6, 0.8, 0.0), angle), offset * Vec3::X)
@@ -95,9 +95,9 @@ impl Stage {
         maps.iter().flat_map(|map| moved(&self.rest, *map)).collect()
     }
 
-    fn parts(&self) -> Vec<Part> {
+    fn parts(&self) -> Vec<MovingPart> {
         let reference = boxes_of(&self.rest);
-        let part = |part: u32| Part {
+        let part = |part: u32| MovingPart {
             members: (part * self.count..(part + 1) * self.count).collect(),
             reference: (part < 2).then(|| Pose { boxes: reference.clone(), unevenness: 1.0 }),
         };
@@ -105,8 +105,8 @@ impl Stage {
     }
 }
 
-fn stage() -> Stage {
-    Stage { rest: soup(700), count: 700 }
+fn stage() -> MovingModel {
+    MovingModel { rest: soup(700), count: 700 }
 }
 
 fn are_equal(a: &Bvh2, b: &Bvh2) -> bool {
@@ -145,7 +145,7 @@ fn a_tree_does_not_depend_on_those_before_it() {
         let alone = build_of_parts(&boxes, &stage.parts(), &KeptTrees::default(), &build);
         assert!(are_equal(&one_of_several, &alone));
         // The control: without poses for reference it is another.
-        let rest = [Part { members: (0..boxes.len() as u32).collect(), reference: None }];
+        let rest = [MovingPart { members: (0..boxes.len() as u32).collect(), reference: None }];
         assert!(!are_equal(&alone, &build_of_parts(&boxes, &rest, &kept, &build)));
     }
 }
@@ -199,9 +199,9 @@ fn what_is_kept_is_not_built_again_until_it_is_forgotten() {
 #[test]
 fn nothing_and_little_have_trees() {
     let kept = KeptTrees::default();
-    assert!(build_of_parts(&[], &[Part::default()], &kept, &build).nodes.is_empty());
+    assert!(build_of_parts(&[], &[MovingPart::default()], &kept, &build).nodes.is_empty());
     let boxes = boxes_of(&soup(2));
     let parts =
-        [0, 1].map(|index| Part { members: vec![index], reference: Some(Pose { boxes: vec![boxes[0]], unevenness: 1.0 }) });
+        [0, 1].map(|index| MovingPart { members: vec![index], reference: Some(Pose { boxes: vec![boxes[0]], unevenness: 1.0 }) });
     checked_depth(&build_of_parts(&boxes, &parts, &kept, &build), &boxes);
 }

@@ -7,7 +7,7 @@ use gpt::compare::Finding;
 use gpt::output::Image;
 use serde::Serialize;
 
-use super::section::Shown;
+use super::section::PicturePair;
 
 #[derive(Serialize)]
 struct Data<'a> {
@@ -24,7 +24,7 @@ struct Data<'a> {
 }
 
 /// The data as JSON that may stand in a page.
-pub fn json(shown: &Shown) -> String {
+pub fn json(shown: &PicturePair) -> String {
     let [first, second] = shown.images;
     let flip: Vec<u8> = shown.flip.values.iter().map(|value| (value * 255.0).round() as u8).collect();
     let data = Data {

@@ -7,7 +7,7 @@ mod section;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-pub use section::{Section, Shown};
+pub use section::{PicturePair, Section};
 
 /// Pixels of all pictures of a page together, of which there are two each; beyond that, pictures are left out.
 const MOST_PIXELS: u64 = 24 << 20;

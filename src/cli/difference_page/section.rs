@@ -15,11 +15,11 @@ pub struct Section<'a> {
     /// Commands that repeat it.
     pub commands: Vec<String>,
     /// None where there are no two pictures.
-    pub shown: Option<Shown<'a>>,
+    pub shown: Option<PicturePair<'a>>,
 }
 
 /// Two pictures of one size.
-pub struct Shown<'a> {
+pub struct PicturePair<'a> {
     /// The pictures' names; the first is the one that the second is compared with.
     pub labels: [&'static str; 2],
     pub images: [&'a Image; 2],

@@ -1,5 +1,5 @@
 use gpt::compare::flip::{FlipMap, PIXELS_PER_DEGREE, flip};
-use gpt::compare::{ImageComparison, Picture, Region, TileSettings, compare_paired};
+use gpt::compare::{ImageComparison, ImageView, Region, TileSettings, compare_paired};
 use gpt::output::Image;
 
 use super::*;
@@ -12,7 +12,7 @@ fn section<'a>(images: &'a [Image; 2], tiles: &'a ImageComparison, map: &'a Flip
         facts: vec!["a fact".to_owned()],
         findings: vec![(Region { x: 1, y: 2, width: 3, height: 4 }, "a finding".to_owned())],
         commands: vec!["gpt test <here>".to_owned()],
-        shown: Some(Shown { labels: ["golden", "now"], images: [&images[0], &images[1]], tiles, flip: map }),
+        shown: Some(PicturePair { labels: ["golden", "now"], images: [&images[0], &images[1]], tiles, flip: map }),
     }
 }
 
@@ -20,7 +20,7 @@ fn section<'a>(images: &'a [Image; 2], tiles: &'a ImageComparison, map: &'a Flip
 #[test]
 fn a_page_stands_by_itself() {
     let images = [0.25, 0.5].map(|value| Image { width: 9, height: 8, pixels: vec![[value; 3]; 72] });
-    let picture = |index: usize| Picture { width: 9, pixels: &images[index].pixels };
+    let picture = |index: usize| ImageView { width: 9, pixels: &images[index].pixels };
     let tiles = compare_paired(picture(0), picture(1), &TileSettings { tile: 4, ..TileSettings::default() }).expect("one size");
     let map = flip(&images[1], &images[0], PIXELS_PER_DEGREE).expect("one size");
     let page = page("a test", "gpt test here", "a method", &[section(&images, &tiles, &map), section(&images, &tiles, &map)]);
@@ -42,7 +42,8 @@ fn what_is_too_large_is_left_out() {
     let large = Image { width: 8192, height: 4096, pixels: vec![[0.0; 3]; 8192 * 4096] };
     let map = FlipMap { width: 1, height: 1, values: vec![0.0] };
     let one = [[0.0f32; 3]; 64];
-    let tiles = compare_paired(Picture { width: 8, pixels: &one }, Picture { width: 8, pixels: &one }, &TileSettings::default());
+    let tiles =
+        compare_paired(ImageView { width: 8, pixels: &one }, ImageView { width: 8, pixels: &one }, &TileSettings::default());
     let images = [large.clone(), large];
     let page = page("a test", "gpt", "a method", &[section(&images, &tiles.expect("one size"), &map)]);
     assert!(page.contains("too large for this page") && page.len() < 100_000);

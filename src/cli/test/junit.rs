@@ -3,16 +3,16 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::report::{SceneReport, Verdict};
+use super::report::{SceneReport, TestOutcome};
 
 /// The outcome of all scenes.
 pub fn xml(folder: &Path, reports: &[SceneReport], seconds: f64) -> String {
-    let count = |verdict: Verdict| reports.iter().filter(|report| report.verdict == verdict).count();
+    let count = |verdict: TestOutcome| reports.iter().filter(|report| report.verdict == verdict).count();
     let counts = format!(
         "tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{seconds:.3}\"",
         reports.len(),
-        count(Verdict::Differs),
-        count(Verdict::Failed)
+        count(TestOutcome::Differs),
+        count(TestOutcome::Failed)
     );
     let suite = escaped(&folder.display().to_string());
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -22,9 +22,9 @@ pub fn xml(folder: &Path, reports: &[SceneReport], seconds: f64) -> String {
         let name = escaped(&report.scene);
         let _ = writeln!(xml, "    <testcase name=\"{name}\" classname=\"{suite}\" time=\"{:.3}\">", report.seconds);
         let element = match report.verdict {
-            Verdict::Differs => Some("failure"),
-            Verdict::Failed => Some("error"),
-            Verdict::Agrees | Verdict::Made => None,
+            TestOutcome::Differs => Some("failure"),
+            TestOutcome::Failed => Some("error"),
+            TestOutcome::Agrees | TestOutcome::Made => None,
         };
         if let Some(element) = element {
             let _ = writeln!(

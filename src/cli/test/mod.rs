@@ -17,7 +17,7 @@ use super::exit::{Exit, Failure};
 use super::test_arguments::TestArguments;
 use super::typed::Typed;
 use super::{interrupt, outputs, terminal};
-use report::{SceneReport, Verdict};
+use report::{SceneReport, TestOutcome};
 
 /// No report replaces another, a scene, or one of the pictures.
 fn check_reports(arguments: &TestArguments, jobs: &[folder::Job]) -> Result<(), Failure> {
@@ -114,7 +114,7 @@ fn write_page(
 
 /// A difference is the answer, whatever else went wrong; then the first failure.
 fn exit(reports: &[SceneReport]) -> Exit {
-    if reports.iter().any(|report| report.verdict == Verdict::Differs) {
+    if reports.iter().any(|report| report.verdict == TestOutcome::Differs) {
         return Exit::Difference;
     }
     reports.iter().find_map(SceneReport::failed_with).unwrap_or(Exit::Done)
@@ -122,10 +122,10 @@ fn exit(reports: &[SceneReport]) -> Exit {
 
 /// The last line.
 fn conclusion(reports: &[SceneReport], html: Option<&Path>) -> String {
-    let named = |verdict: Verdict| -> Vec<&str> {
+    let named = |verdict: TestOutcome| -> Vec<&str> {
         reports.iter().filter(|report| report.verdict == verdict).map(|report| report.scene.as_str()).collect()
     };
-    let [differ, failed] = [Verdict::Differs, Verdict::Failed].map(named);
+    let [differ, failed] = [TestOutcome::Differs, TestOutcome::Failed].map(named);
     let mut words = Vec::new();
     if !differ.is_empty() {
         words.push(format!("{} of {} differ: {}", differ.len(), reports.len(), differ.join(", ")));
@@ -136,7 +136,7 @@ fn conclusion(reports: &[SceneReport], html: Option<&Path>) -> String {
     let shown = html.map_or_else(String::new, |path| format!("{} shows them\n", path.display()));
     if words.is_empty() {
         let green = terminal::coloured(terminal::GREEN, "GREEN");
-        let made = named(Verdict::Made).len();
+        let made = named(TestOutcome::Made).len();
         let agree = reports.len() - made;
         let words = [(agree, "agree"), (made, "made")].into_iter().filter(|(count, _)| *count > 0);
         let words: Vec<String> = words.map(|(count, word)| format!("{count} {word}")).collect();

@@ -1,17 +1,17 @@
 //! The page that shows what a test found.
 
-use super::report::{SceneReport, Verdict};
+use super::report::{SceneReport, TestOutcome};
 use crate::cli::bench::command;
-use crate::cli::difference_page::{self, Section, Shown};
+use crate::cli::difference_page::{self, PicturePair, Section};
 use crate::cli::test_arguments::TestArguments;
 
 /// Scenes that differ first.
 pub fn page(arguments: &TestArguments, reports: &[SceneReport]) -> String {
     let mut sorted: Vec<&SceneReport> = reports.iter().collect();
     sorted.sort_by_key(|report| match report.verdict {
-        Verdict::Differs => 0,
-        Verdict::Failed => 1,
-        Verdict::Made | Verdict::Agrees => 2,
+        TestOutcome::Differs => 0,
+        TestOutcome::Failed => 1,
+        TestOutcome::Made | TestOutcome::Agrees => 2,
     });
     let sections: Vec<Section> = sorted.into_iter().map(section).collect();
     let share = |share: f64| format!("{} %", 100.0 * share);
@@ -29,10 +29,10 @@ pub fn page(arguments: &TestArguments, reports: &[SceneReport]) -> String {
 
 fn section(report: &SceneReport) -> Section<'_> {
     let (verdict, is_red) = match report.verdict {
-        Verdict::Agrees => ("agrees", false),
-        Verdict::Differs => ("differs", true),
-        Verdict::Made => ("golden picture made", false),
-        Verdict::Failed => ("could not be tested", true),
+        TestOutcome::Agrees => ("agrees", false),
+        TestOutcome::Differs => ("differs", true),
+        TestOutcome::Made => ("golden picture made", false),
+        TestOutcome::Failed => ("could not be tested", true),
     };
     let mut facts = report.facts();
     facts.extend(report.device.clone());
@@ -44,7 +44,7 @@ fn section(report: &SceneReport) -> Section<'_> {
         facts,
         findings: report.differences.iter().map(|difference| (difference.region, difference.sentence())).collect(),
         commands: report.commands.clone(),
-        shown: report.pictures.as_ref().map(|pictures| Shown {
+        shown: report.pictures.as_ref().map(|pictures| PicturePair {
             labels: ["golden", "now"],
             images: [&pictures.golden, &pictures.now],
             tiles: &pictures.tiles,

@@ -12,7 +12,7 @@ use crate::cli::exit::Exit;
 /// The outcome of a scene's test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Verdict {
+pub enum TestOutcome {
     Agrees,
     Differs,
     /// Its golden picture was made.
@@ -26,7 +26,7 @@ pub struct SceneReport {
     pub scene: String,
     pub file: String,
     pub golden: String,
-    pub verdict: Verdict,
+    pub verdict: TestOutcome,
     /// Sentences beside the verdict.
     pub message: Option<String>,
     pub device: Option<String>,
@@ -131,10 +131,10 @@ impl SceneReport {
     /// The text at the terminal: a line, and one more where something differs.
     pub fn line(&self) -> String {
         let mut line = match self.verdict {
-            Verdict::Agrees => format!("{}: agrees", self.scene),
-            Verdict::Differs => format!("{}: DIFFERS", self.scene),
-            Verdict::Made => format!("{}: golden picture made", self.scene),
-            Verdict::Failed => format!("{}: FAILED", self.scene),
+            TestOutcome::Agrees => format!("{}: agrees", self.scene),
+            TestOutcome::Differs => format!("{}: DIFFERS", self.scene),
+            TestOutcome::Made => format!("{}: golden picture made", self.scene),
+            TestOutcome::Failed => format!("{}: FAILED", self.scene),
         };
         let facts = self.facts();
         if !facts.is_empty() {
@@ -149,7 +149,7 @@ impl SceneReport {
         if let Some(message) = &self.message {
             let _ = writeln!(line, "  {message}");
         }
-        if self.verdict == Verdict::Differs {
+        if self.verdict == TestOutcome::Differs {
             for command in &self.commands {
                 let _ = writeln!(line, "  {command}");
             }
@@ -171,7 +171,7 @@ impl SceneReport {
             let noise = self.flip_of_noise.map_or_else(String::new, |noise| format!(", {noise:.4} by noise alone"));
             facts.push(format!("ꟻLIP {flip:.4}{noise}"));
         }
-        if self.verdict == Verdict::Agrees && self.suspects > 0 {
+        if self.verdict == TestOutcome::Agrees && self.suspects > 0 {
             facts.push(format!("a second look cleared {} of chance", self.suspects));
         }
         if self.scene_changed == Some(true) {

@@ -19,7 +19,7 @@ use gpt::plan::PlanOptions;
 use gpt::renderer::{DeviceChoice, Renderer};
 
 use super::folder::Job;
-use super::report::{Difference, SceneReport, TestPictures, Verdict};
+use super::report::{Difference, SceneReport, TestOutcome, TestPictures};
 use crate::cli::bench::OnlyStops;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::test_arguments::TestArguments;
@@ -32,7 +32,7 @@ pub fn test(job: &Job, arguments: &TestArguments, settings: &TestSettings, read:
     let started = Instant::now();
     let mut report = blank(job);
     if let Err(failure) = test_into(job, (arguments, settings), read, &mut report) {
-        report.verdict = Verdict::Failed;
+        report.verdict = TestOutcome::Failed;
         report.failure = Some(Exit::from(&failure));
         report.message = Some(failure.to_string());
     }
@@ -45,7 +45,7 @@ fn blank(job: &Job) -> SceneReport {
         scene: job.name.clone(),
         file: job.file.display().to_string(),
         golden: job.golden.display().to_string(),
-        verdict: Verdict::Failed,
+        verdict: TestOutcome::Failed,
         message: None,
         device: None,
         width: 0,
@@ -136,7 +136,7 @@ fn make_golden(job: &Job, settings: &TestSettings, maker: &mut Maker, report: &m
     let Blessed { golden, detection, non_finite_samples, .. } =
         bless(maker.renderer.as_mut(), scene.film.size, identity, settings, &OnlyStops)?;
     golden.write(&job.golden, provenance.clone())?;
-    report.verdict = Verdict::Made;
+    report.verdict = TestOutcome::Made;
     report.spp = golden.samples_of_one();
     report.golden_spp = Some(golden.samples);
     report.detectable_change = Some(detection.change);
@@ -181,7 +181,7 @@ fn render_and_judge(
     let theirs = [golden.mean.width, golden.mean.height];
     if theirs != maker.scene.film.size {
         let [[w, h], [gw, gh]] = [maker.scene.film.size, theirs];
-        report.verdict = Verdict::Differs;
+        report.verdict = TestOutcome::Differs;
         report.message = Some(format!("the picture has {w}x{h} pixels, and its golden picture {gw}x{gh}"));
         return Ok(true);
     }
@@ -200,7 +200,7 @@ fn render_and_judge(
     let render = render.with_option("--spp", detection.samples.to_string()).with_option("--seed", seed.to_string());
     report.commands.push(format!("{} && {}", render.with_option("-o", "now.exr"), compare(Path::new("now.exr"), &job.golden)));
     let differs = !differences.is_empty() || looks_different(arguments, report);
-    report.verdict = if differs { Verdict::Differs } else { Verdict::Agrees };
+    report.verdict = if differs { TestOutcome::Differs } else { TestOutcome::Agrees };
     report.pictures = Some(TestPictures { golden: golden.mean.clone(), now: picture, tiles: first_look, flip: map });
     Ok(differs)
 }
@@ -230,7 +230,7 @@ fn test_candidate(
     report.golden_spp = Some(golden.samples);
     report.spp = candidate.samples;
     if [golden.mean.width, golden.mean.height] != [report.width, report.height] {
-        report.verdict = Verdict::Differs;
+        report.verdict = TestOutcome::Differs;
         let Golden { mean, .. } = &golden;
         report.message = Some(format!(
             "the picture has {}x{} pixels, and its golden picture {}x{}",
@@ -251,7 +251,7 @@ fn test_candidate(
     }
     report.commands.push(compare(&path, &job.golden).to_string());
     let differs = !report.differences.is_empty() || looks_different(arguments, report);
-    report.verdict = if differs { Verdict::Differs } else { Verdict::Agrees };
+    report.verdict = if differs { TestOutcome::Differs } else { TestOutcome::Agrees };
     report.pictures = Some(TestPictures { golden: golden.mean, now: candidate.mean, tiles: compared, flip: map });
     Ok(())
 }

@@ -1,11 +1,11 @@
 //! A render shown while it goes on: on a page in the browser (`--view`), in tev (`--display`), and again whenever a file changes (`--watch`).
 //!
-//! The render puts what it has on a [`board`] and goes on. Threads of the server and of tev read it there.
+//! The render puts what it has on a [`live_state`] and goes on. Threads of the server and of tev read it there.
 
 mod arguments;
-mod board;
 mod browser;
 mod layers;
+mod live_state;
 mod request;
 mod server;
 mod tev;
@@ -21,8 +21,8 @@ use gpt::load::FileLog;
 use gpt::output::{Display, LayerChannel};
 
 pub use arguments::ViewArguments;
-use board::Board;
-pub use board::Phase;
+use live_state::LiveState;
+pub use live_state::Phase;
 use server::Server;
 
 use super::exit::Failure;
@@ -36,7 +36,7 @@ const SETTLING: Duration = Duration::from_millis(40);
 
 /// The places where a render is shown; none, if nobody asked for one.
 pub struct Live {
-    board: Option<Arc<Board>>,
+    state: Option<Arc<LiveState>>,
     url: Option<String>,
     tev: Option<tev::Sender>,
     /// A file of the scene has changed.
@@ -51,18 +51,18 @@ impl Live {
     /// # Errors
     /// No server, or no tev at that address.
     pub fn start(arguments: &ViewArguments, display: &Display) -> Result<Self, Failure> {
-        let mut live = Self { board: None, url: None, tev: None, changed: None, files: FileLog::default() };
+        let mut live = Self { state: None, url: None, tev: None, changed: None, files: FileLog::default() };
         if !arguments.view && arguments.tev.is_none() {
             return Ok(live);
         }
-        let board = Arc::new(Board::new(display));
+        let state = Arc::new(LiveState::new(display));
         if let Some(address) = &arguments.tev {
             let refused = |error| Failure::Other(format!("--display {address}: {error}; is tev running there?"));
-            live.tev = Some(tev::start(address, board.clone()).map_err(refused)?);
+            live.tev = Some(tev::start(address, state.clone()).map_err(refused)?);
         }
         if arguments.view {
             let failed = |error| Failure::Other(format!("--view: the page cannot be served: {error}"));
-            let server = Server::start(board.clone()).map_err(failed)?;
+            let server = Server::start(state.clone()).map_err(failed)?;
             terminal::note(&format!("the picture is shown at {}", server.url));
             browser::open(&server.url);
             live.url = Some(server.url);
@@ -77,13 +77,13 @@ impl Live {
                 .map_err(|error| Failure::Other(format!("--watch: {error}")))?;
             live.changed = Some(changed);
         }
-        live.board = Some(board);
+        live.state = Some(state);
         Ok(live)
     }
 
     /// True if it is shown anywhere.
     pub fn is_shown(&self) -> bool {
-        self.board.is_some()
+        self.state.is_some()
     }
 
     /// The list of the files that were read for the scene.
@@ -93,8 +93,8 @@ impl Live {
 
     /// A scene of this name is about to be rendered.
     pub fn begin(&self, scene: &str) {
-        if let Some(board) = &self.board {
-            board.begin(scene);
+        if let Some(state) = &self.state {
+            state.begin(scene);
         }
     }
 
@@ -113,22 +113,22 @@ impl Live {
 
     /// Notes the device that renders.
     pub fn on_device(&self, device: &str) {
-        if let Some(board) = &self.board {
-            board.on_device(device);
+        if let Some(state) = &self.state {
+            state.on_device(device);
         }
     }
 
     /// Layers beside the picture are there.
     pub fn layers(&self, channels: &[LayerChannel], size: [u32; 2]) {
-        if let Some(board) = &self.board {
-            board.layers(layers::layer_images(channels, size));
+        if let Some(state) = &self.state {
+            state.layers(layers::layer_images(channels, size));
         }
     }
 
     /// The render is over.
     pub fn end(&self, phase: Phase, message: &str, files: &[String]) {
-        if let Some(board) = &self.board {
-            board.end(phase, message, files);
+        if let Some(state) = &self.state {
+            state.end(phase, message, files);
         }
     }
 
@@ -141,7 +141,7 @@ impl Live {
 
     /// Lets the page stand until Ctrl-C, if there is one, and tev have the last picture.
     pub fn close(self, is_over: bool) {
-        if let Some(board) = &self.board {
+        if let Some(state) = &self.state {
             if let (Some(url), true) = (&self.url, is_over) {
                 interrupt::render_is_over();
                 terminal::note(&format!("{url} stays until Ctrl-C"));
@@ -149,7 +149,7 @@ impl Live {
                     thread::sleep(LOOK_INTERVAL);
                 }
             }
-            board.close();
+            state.close();
         }
         if let Some(tev) = self.tev {
             tev.join();
@@ -197,8 +197,8 @@ impl Watching<'_> {
 
     /// Finished rows.
     pub fn band(&self, band: &Band) {
-        if let Some(board) = &self.live.board {
-            board.rows(band.clone(), self.height, Instant::now());
+        if let Some(state) = &self.live.state {
+            state.rows(band.clone(), self.height, Instant::now());
         }
     }
 
@@ -213,9 +213,9 @@ impl Observer for Watching<'_> {
             return;
         }
         self.progress.progress(done, total);
-        if let Some(board) = &self.live.board {
+        if let Some(state) = &self.live.state {
             let phase = if self.shows_rows { Phase::Rendering } else { Phase::Layers };
-            board.progress(phase, done, total);
+            state.progress(phase, done, total);
         }
     }
 
@@ -224,7 +224,7 @@ impl Observer for Watching<'_> {
     }
 
     fn wants_rows(&self) -> bool {
-        let wants = self.shows_rows && self.live.board.as_ref().is_some_and(|board| board.wants_picture());
+        let wants = self.shows_rows && self.live.state.as_ref().is_some_and(|state| state.wants_picture());
         if wants {
             self.asked().get_or_insert_with(Instant::now);
         }
@@ -233,14 +233,14 @@ impl Observer for Watching<'_> {
 
     fn rows_so_far(&self, rows: Band) {
         let asked = self.asked().take().unwrap_or_else(Instant::now);
-        if let Some(board) = &self.live.board {
-            board.rows(rows, self.height, asked);
+        if let Some(state) = &self.live.state {
+            state.rows(rows, self.height, asked);
         }
     }
 
     fn error_so_far(&self, expected: f64, upper: f64) {
-        if let Some(board) = &self.live.board {
-            board.error(expected, upper);
+        if let Some(state) = &self.live.state {
+            state.error(expected, upper);
         }
     }
 }

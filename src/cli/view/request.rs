@@ -64,14 +64,14 @@ fn invalid() -> io::Error {
     io::Error::new(ErrorKind::InvalidData, "it is no request")
 }
 
-/// Who may ask: who knows the secret, and came by an address of this machine. A page of another origin whose name was made to lead here asks by
+/// Decides who may ask: who knows the secret, and came by an address of this machine. A page of another origin whose name was made to lead here asks by
 /// that name.
-pub struct Door {
+pub struct AccessCheck {
     secret: String,
     hosts: [String; 2],
 }
 
-impl Door {
+impl AccessCheck {
     pub fn new(secret: String, port: u16) -> Self {
         Self { secret, hosts: ["127.0.0.1", "localhost"].map(|host| format!("{host}:{port}")) }
     }
@@ -144,11 +144,11 @@ mod tests {
 
     #[test]
     fn the_door_opens_to_the_secret_by_this_machines_name() {
-        let door = Door::new("secret".to_owned(), 80);
+        let access = AccessCheck::new("secret".to_owned(), 80);
         let ask = |path: &str, host: Option<&str>| {
             let request =
                 Request { method: "GET".into(), path: path.into(), query: String::new(), host: host.map(str::to_owned) };
-            door.admit(&request).map(str::to_owned)
+            access.admit(&request).map(str::to_owned)
         };
         assert_eq!(ask("/secret/", Some("127.0.0.1:80")).as_deref(), Some(""));
         assert_eq!(ask("/secret/state", Some("LOCALHOST:80")).as_deref(), Some("state"));

@@ -13,8 +13,8 @@ use gpt::film::Band;
 use gpt::output::{PictureFile, PictureFormat, PictureSpec};
 use serde::Serialize;
 
-use super::board::{Board, Picture, Status, View};
-use super::request::{Door, Request, answer};
+use super::live_state::{LivePicture, LiveState, Status, View};
+use super::request::{AccessCheck, Request, answer};
 
 /// The page, all in one file.
 const PAGE: &str = concat!(
@@ -47,13 +47,13 @@ impl Server {
     ///
     /// # Errors
     /// No port, or no thread.
-    pub fn start(board: Arc<Board>) -> io::Result<Self> {
+    pub fn start(state: Arc<LiveState>) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let port = listener.local_addr()?.port();
         let secret = secret()?;
         let url = format!("http://127.0.0.1:{port}/{secret}/");
-        let door = Arc::new(Door::new(secret, port));
-        thread::Builder::new().name("view".to_owned()).spawn(move || serve(&listener, &door, &board))?;
+        let access = Arc::new(AccessCheck::new(secret, port));
+        thread::Builder::new().name("view".to_owned()).spawn(move || serve(&listener, &access, &state))?;
         Ok(Self { url })
     }
 }
@@ -68,7 +68,7 @@ fn secret() -> io::Result<String> {
     Ok(format!("{:032x}", u128::from_ne_bytes(bytes)))
 }
 
-fn serve(listener: &TcpListener, door: &Arc<Door>, board: &Arc<Board>) {
+fn serve(listener: &TcpListener, access: &Arc<AccessCheck>, state: &Arc<LiveState>) {
     let (open, strangers) = (Arc::new(AtomicUsize::new(0)), Arc::new(Strangers::default()));
     loop {
         let Ok((connection, _)) = listener.accept() else {
@@ -78,10 +78,10 @@ fn serve(listener: &TcpListener, door: &Arc<Door>, board: &Arc<Board>) {
         };
         let connection = Arc::new(connection);
         let stranger = Strangers::enter(&strangers, &connection);
-        let (door, board, open) = (door.clone(), board.clone(), open.clone());
+        let (access, state, open) = (access.clone(), state.clone(), open.clone());
         // Without a thread the connection is closed, and the browser asks again. A browser that goes away is no failure.
         let _ = thread::Builder::new().name("view request".to_owned()).spawn(move || {
-            let _ = converse(&connection, stranger, (&door, &board, &open));
+            let _ = converse(&connection, stranger, (&access, &state, &open));
         });
     }
 }
@@ -153,7 +153,11 @@ impl io::Read for Until<'_> {
     }
 }
 
-fn converse(connection: &TcpStream, stranger: Stranger, (door, board, open): (&Door, &Board, &AtomicUsize)) -> io::Result<()> {
+fn converse(
+    connection: &TcpStream,
+    stranger: Stranger,
+    (access, state, open): (&AccessCheck, &LiveState, &AtomicUsize),
+) -> io::Result<()> {
     connection.set_nodelay(true)?;
     connection.set_write_timeout(Some(PATIENCE))?;
     let request = match Request::read(Until(connection, Instant::now() + PATIENCE)) {
@@ -164,7 +168,7 @@ fn converse(connection: &TcpStream, stranger: Stranger, (door, board, open): (&D
         Err(error) => return Err(error),
     };
     let with_body = request.method != "HEAD";
-    let Some(path) = door.admit(&request) else {
+    let Some(path) = access.admit(&request) else {
         let words = b"The address that gpt printed has a secret in it, and this one has not.\n";
         return answer(connection, "403 Forbidden", TEXT, words, with_body);
     };
@@ -179,19 +183,19 @@ fn converse(connection: &TcpStream, stranger: Stranger, (door, board, open): (&D
         "" => answer(connection, "200 OK", "text/html; charset=utf-8", PAGE.as_bytes(), with_body),
         "state" => {
             let after = request.parameter("after").and_then(|after| after.parse().ok()).unwrap_or(0);
-            let view = board.view_after(after, if after > 0 { LONGEST_WAIT } else { Duration::ZERO }, true);
+            let view = state.view_after(after, if after > 0 { LONGEST_WAIT } else { Duration::ZERO }, true);
             let body = serde_json::to_vec(&State::of(&view))?;
             answer(connection, "200 OK", "application/json", &body, with_body)
         }
         "picture" => {
-            let view = board.view_after(0, Duration::ZERO, true);
+            let view = state.view_after(0, Duration::ZERO, true);
             match pixels(&view, request.parameter("layer")) {
                 Some(body) => answer(connection, "200 OK", "application/octet-stream", &body?, with_body),
                 None => answer(connection, "404 Not Found", TEXT, b"There is no such layer.\n", with_body),
             }
         }
         "picture.exr" => {
-            let view = board.view_after(0, Duration::ZERO, true);
+            let view = state.view_after(0, Duration::ZERO, true);
             if view.picture.mean.is_empty() {
                 return answer(connection, "404 Not Found", TEXT, b"There is no picture yet.\n", with_body);
             }
@@ -261,7 +265,7 @@ fn pixels(view: &View, layer: Option<&str>) -> Option<io::Result<Vec<u8>>> {
 }
 
 /// The picture as a file.
-fn exr(picture: &Picture) -> io::Result<Vec<u8>> {
+fn exr(picture: &LivePicture) -> io::Result<Vec<u8>> {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("picture.exr");
     let failed = |error: gpt::output::OutputError| io::Error::other(error.to_string());

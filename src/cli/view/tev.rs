@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::super::terminal;
-use super::board::{Board, Picture};
+use super::live_state::{LivePicture, LiveState};
 
 /// How long a connection may take to come about, with the search for its address, and a packet to be taken.
 const CONNECT: Duration = Duration::from_secs(3);
@@ -26,31 +26,31 @@ const CREATE_IMAGE: u8 = 4;
 /// With several channels, and where their numbers stand.
 const UPDATE_IMAGE: u8 = 6;
 
-/// Sends every picture of the board, in a thread of its own, as long as there is somebody at the other end.
+/// Sends every picture of the state, in a thread of its own, as long as there is somebody at the other end.
 ///
 /// # Errors
 /// There is nobody from the beginning.
-pub fn start(address: &str, board: Arc<Board>) -> io::Result<Sender> {
+pub fn start(address: &str, state: Arc<LiveState>) -> io::Result<Sender> {
     let connection = connect_in_time(address)?;
-    board.receivers(1);
+    state.receivers(1);
     let (address, of_thread) = (address.to_owned(), address.to_owned());
     let thread = thread::Builder::new().name("tev".to_owned()).spawn(move || {
-        if let Err(error) = send_pictures(&connection, &board) {
+        if let Err(error) = send_pictures(&connection, &state) {
             terminal::warn(&format!("--display {of_thread} takes no more pictures: {error}; the render goes on"));
         }
-        board.receivers(-1);
+        state.receivers(-1);
     })?;
     Ok(Sender { address, thread })
 }
 
-/// Sends pictures until the board is closed.
+/// Sends pictures until the state is closed.
 pub struct Sender {
     address: String,
     thread: thread::JoinHandle<()>,
 }
 
 impl Sender {
-    /// Waits a while for the last picture to be sent. The board is closed.
+    /// Waits a while for the last picture to be sent. The state is closed.
     pub fn join(self) {
         let closed = Instant::now();
         while !self.thread.is_finished() && closed.elapsed() < LAST_PICTURE {
@@ -91,10 +91,10 @@ fn connect(address: &str) -> io::Result<TcpStream> {
     Err(last)
 }
 
-fn send_pictures(mut connection: &TcpStream, board: &Board) -> io::Result<()> {
+fn send_pictures(mut connection: &TcpStream, state: &LiveState) -> io::Result<()> {
     let (mut version, mut number, mut shown) = (0, 0, None);
     loop {
-        let view = board.view_after(version, Duration::from_millis(500), false);
+        let view = state.view_after(version, Duration::from_millis(500), false);
         version = view.version;
         let picture = &view.picture;
         if picture.number != number && !picture.mean.is_empty() {
@@ -115,7 +115,7 @@ fn send_pictures(mut connection: &TcpStream, board: &Board) -> io::Result<()> {
     }
 }
 
-fn send(mut connection: &TcpStream, name: &str, picture: &Picture) -> io::Result<()> {
+fn send(mut connection: &TcpStream, name: &str, picture: &LivePicture) -> io::Result<()> {
     let at_once = (PIXELS_AT_ONCE / picture.width).max(1);
     for first in (0..picture.height).step_by(at_once as usize) {
         let end = (first + at_once).min(picture.height);

@@ -24,8 +24,8 @@ pub(super) fn exposures(reference: &Image) -> Vec<f64> {
     luminances.sort_unstable_by(f32::total_cmp);
     let Some(&brightest) = luminances.last() else { return vec![0.0] };
     // Half of the pixels may be black: then the darkest that is not.
-    let lit = luminances.partition_point(|value| *value <= 0.0);
-    let median = luminances[(luminances.len() / 2).max(lit).min(luminances.len() - 1)];
+    let first_positive = luminances.partition_point(|value| *value <= 0.0);
+    let median = luminances[(luminances.len() / 2).max(first_positive).min(luminances.len() - 1)];
     if brightest <= 0.0 {
         return vec![0.0];
     }

@@ -25,8 +25,8 @@ fn variances() -> Vec<[f32; 3]> {
     (0..SIZE).map(|pixel| std::array::from_fn(|channel| (NOISE * truth(pixel, channel)).powi(2) as f32)).collect()
 }
 
-fn picture(pixels: &[[f32; 3]]) -> Picture<'_> {
-    Picture { width: WIDTH, pixels }
+fn picture(pixels: &[[f32; 3]]) -> ImageView<'_> {
+    ImageView { width: WIDTH, pixels }
 }
 
 /// Pixels of equal paths on another device: rounding everywhere, and one path in a hundred that went
@@ -161,7 +161,7 @@ fn tiles_cover_each_pixel_once() {
 #[test]
 fn pictures_that_cannot_be_compared() {
     let pixels = [[1.0f32; 3]; 12];
-    let of = |width, count: usize| Picture { width, pixels: &pixels[..count] };
+    let of = |width, count: usize| ImageView { width, pixels: &pixels[..count] };
     let compare = |a, b| compare_paired(a, b, &TileSettings::default()).map(|compared| compared.agrees());
     assert_eq!(compare(of(4, 12), of(4, 12)), Ok(true));
     assert_eq!(compare(of(4, 12), of(3, 12)), Err(ComparisonError::Sizes));

@@ -146,7 +146,7 @@ fn a_stopped_render_delivers_what_is_done() {
         bands.iter().map(|band| (band.first_row, band.samples)).collect::<Vec<_>>(),
         [(0, 1), (64, 1), (128, 1), (192, 1)]
     );
-    assert!(bands.iter().all(|band| band.counts.is_none()), "the first sweep is finished");
+    assert!(bands.iter().all(|band| band.counts.is_none()), "the first iteration is finished");
     let (report, bands) = render(&scene, request(), &StopAfter(AtomicU32::new(6)));
     let samples: Vec<u32> = bands.iter().map(|band| band.samples).collect();
     assert!(report.interrupted && samples.len() == 4 && samples[0] > samples[2] && samples[2] == 1, "{samples:?}");

@@ -1,9 +1,9 @@
-//! The gain of a guide: error times cost with it and without it, as guided paths tell both.
+//! The gain of a guide: error times cost with it and without it, as guided paths estimate both.
 
 use super::super::extent::{has_few_pixels, has_many_triangles};
 use super::cost::costs;
 use super::sum::{Rays, Sum};
-use super::tried::{Found, InView, errors_of_guiding, tried_pixels};
+use super::tried::{InView, TrialResult, errors_of_guiding, tried_pixels};
 use crate::reference::integrator::Integrator;
 use crate::scene::{FEW_PRIMITIVES, Scene};
 
@@ -18,13 +18,13 @@ pub fn why_no_guide(scene: &Scene) -> Option<&'static str> {
 /// Error times cost with the guide that the integrator has, over that without one.
 pub fn loss_with_guide(integrator: &mut Integrator) -> f64 {
     let pixels = tried_pixels(integrator.scene());
-    let (found, tales) = Found::unguided(integrator, pixels);
+    let (found, estimates) = TrialResult::unguided(integrator, pixels);
     let in_view = InView::new(integrator, pixels);
     let costs = costs(integrator.primitive_count() <= FEW_PRIMITIVES);
     let cost = |rays: Rays, of_guide: f64| (1.0 + of_guide) * rays.path + costs.light_sample * rays.shadow;
-    let unguided_rays = tales.iter().fold(Rays::default(), |sum, tale| sum.and(tale.rays));
-    let rays = found.rays().times(1.0 / Found::paths(1));
-    let [error, unguided_error] = errors_of_guiding(&found, &tales, &in_view);
+    let unguided_rays = estimates.iter().fold(Rays::default(), |sum, estimate| sum.and(estimate.rays));
+    let rays = found.rays().times(1.0 / TrialResult::paths(1));
+    let [error, unguided_error] = errors_of_guiding(&found, &estimates, &in_view);
     let errors = if unguided_error > 0.0 { error / unguided_error } else { 1.0 };
     errors * cost(rays, costs.guide) / cost(unguided_rays, 0.0)
 }
@@ -35,8 +35,8 @@ mod tests {
 
     use super::super::super::guide;
     use super::super::super::paths::{follow, pixel_of};
-    use super::super::unguided::{Tale, UnguidedRecord};
-    use super::super::watched::{Record, Watched};
+    use super::super::trial_path::{Record, TrialPath};
+    use super::super::unguided::{UnguidedEstimate, UnguidedRecord};
     use super::*;
     use crate::compare::Moments;
     use crate::load;
@@ -75,23 +75,23 @@ mod tests {
         integrator
     }
 
-    /// Second moment of the light beyond the first edge, and number of rays, as guided paths tell them or as
+    /// Second moment of the light beyond the first edge, and number of rays, as guided paths estimate them or as
     /// they are.
-    fn moments(integrator: &Integrator, seed: u32, value: impl Fn(Tale) -> [f64; 2]) -> [Moments; 2] {
+    fn moments(integrator: &Integrator, seed: u32, value: impl Fn(UnguidedEstimate) -> [f64; 2]) -> [Moments; 2] {
         let settings = &integrator.scene().render;
         let sampling = Sampling { path: SamplerKind::Independent, seed, ..Sampling::from(settings) };
         let mut found = [Moments::default(); 2];
         for path in 0..40_000 {
-            let mut watcher = Watched::<UnguidedRecord>::new(settings);
+            let mut watcher = TrialPath::<UnguidedRecord>::new(settings);
             follow(integrator, &sampling, pixel_of(path, integrator.scene().film.size), path, &mut watcher);
-            for (moments, value) in found.iter_mut().zip(value(watcher.record.told())) {
+            for (moments, value) in found.iter_mut().zip(value(watcher.record.statistics())) {
                 moments.push(value);
             }
         }
         found
     }
 
-    /// Guided paths tell the second moment and the rays of unguided ones.
+    /// Guided paths estimate the second moment and the rays of unguided ones.
     #[test]
     fn guided_paths_tell_what_unguided_ones_would_be() {
         let changes: [fn(&mut RenderSettings); 3] = [
@@ -102,21 +102,22 @@ mod tests {
         for change in changes {
             let mut integrator = guided("3", change);
             let with_rays = |moment: Spectrum, rays: Rays| [moment.sum(), rays.path + rays.shadow];
-            let told = moments(&integrator, 1, |tale| with_rays(tale.unguided, tale.rays));
+            let estimated = moments(&integrator, 1, |estimate| with_rays(estimate.unguided, estimate.rays));
             integrator.set_guide(None);
-            let without = moments(&integrator, 2, |tale| with_rays(tale.guided, tale.rays));
+            let without = moments(&integrator, 2, |estimate| with_rays(estimate.guided, estimate.rays));
             // The estimate agrees, and does not if it were twice as much, or a tenth more.
             for (which, more) in [(0, 2.0), (1, 1.1)] {
-                let [told, without] = [&told[which], &without[which]];
+                let [estimated, without] = [&estimated[which], &without[which]];
                 let z = |factor: f64| {
-                    (factor * told.mean() - without.mean()) / (factor * told.standard_error()).hypot(without.standard_error())
+                    (factor * estimated.mean() - without.mean())
+                        / (factor * estimated.standard_error()).hypot(without.standard_error())
                 };
-                assert!(z(1.0).abs() < 4.5 && z(more) > 4.5, "{told:?} and {without:?}");
+                assert!(z(1.0).abs() < 4.5 && z(more) > 4.5, "{estimated:?} and {without:?}");
             }
         }
     }
 
-    /// A guide pays where light comes through a gap, and not where a lamp lights what is seen.
+    /// A guide pays where light comes through a gap, and not where an emitter lights what is seen.
     #[test]
     fn a_guide_pays_where_light_is_hard_to_find() {
         let behind_a_wall = loss_with_guide(&mut guided("0.2", |_| ()));

@@ -11,9 +11,9 @@
 mod cost;
 mod guiding;
 mod sum;
+mod trial_path;
 mod tried;
 mod unguided;
-mod watched;
 
 use std::borrow::Cow;
 
@@ -25,13 +25,13 @@ use crate::reference::Integrator;
 use crate::reference::intersect::Outline;
 use crate::reference::work;
 use crate::renderer::RenderError;
-use crate::sampling::light_way::LightWay;
+use crate::sampling::light_strategy::LightStrategy;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{Estimator, FEW_PRIMITIVES, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 use cost::costs;
 pub use guiding::{loss_with_guide, why_no_guide};
 use sum::Rays;
-use tried::{Found, InView, tried_pixels};
+use tried::{InView, TrialResult, tried_pixels};
 
 /// Gain that a way needs over a simpler one to be chosen: less is noise of the trial run.
 const LEAST_GAIN: f64 = 1.06;
@@ -117,7 +117,7 @@ fn choose_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: boo
     }
     let mut trial = TrialRun::new(scene, integrator)?;
     let of_path = work_of_path::of_path(&trial.integrator);
-    if of_path * Found::paths(trial.pixels) > MOST_WORK_OF_WAY {
+    if of_path * TrialResult::paths(trial.pixels) > MOST_WORK_OF_WAY {
         let because = too_much_work("a trial run", of_path);
         let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };
         return Ok(as_it_is(Some(trial.integrator), reasons));
@@ -196,7 +196,7 @@ fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
 }
 
 /// The best way to draw from lights, from a simple one on.
-fn best_way(trial: &mut TrialRun<'_>, simple: Tried, open: Open, beside: (&Found, &InView)) -> Tried {
+fn best_way(trial: &mut TrialRun<'_>, simple: Tried, open: Open, beside: (&TrialResult, &InView)) -> Tried {
     let mut best = simple;
     if open.light_sampling {
         best = trial.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
@@ -259,7 +259,7 @@ impl<'a> TrialRun<'a> {
     }
 
     /// The better of two ways, both beside the simplest.
-    fn better(&mut self, best: Tried, other: Tried, (simplest, in_view): (&Found, &InView)) -> Tried {
+    fn better(&mut self, best: Tried, other: Tried, (simplest, in_view): (&TrialResult, &InView)) -> Tried {
         if self.spent > MOST_WORK {
             return best;
         }
@@ -276,16 +276,16 @@ impl<'a> TrialRun<'a> {
         settings
     }
 
-    fn set_way(&mut self, tried: Tried) -> RenderSettings {
+    fn set_strategy(&mut self, tried: Tried) -> RenderSettings {
         let settings = self.way(tried);
         self.integrator.set_light_choice(settings.light_choice);
         self.integrator.set_light_sampling(&settings);
         settings
     }
 
-    fn try_way(&mut self, tried: Tried) -> Found {
-        let settings = self.set_way(tried);
-        let mut found = Found::new(&self.integrator, self.pixels);
+    fn try_way(&mut self, tried: Tried) -> TrialResult {
+        let settings = self.set_strategy(tried);
+        let mut found = TrialResult::new(&self.integrator, self.pixels);
         self.spent += found.work;
         if self.shadow_rays == 0.0 {
             self.shadow_rays = found.rays().shadow;
@@ -312,10 +312,10 @@ impl<'a> TrialRun<'a> {
             Some(Outline::Rectangle) => costs.of_rectangle,
             Some(Outline::Triangle) => costs.of_triangle,
         };
-        let of_choice = match self.integrator.light_way() {
-            LightWay::Power => 0.0,
-            LightWay::Tree => costs.tree_of_lights,
-            LightWay::Cells => costs.cells_of_lights,
+        let of_choice = match self.integrator.light_strategy() {
+            LightStrategy::Power => 0.0,
+            LightStrategy::Tree => costs.tree_of_lights,
+            LightStrategy::Cells => costs.cells_of_lights,
         };
         costs.light_sample + of_choice + of_point
     }

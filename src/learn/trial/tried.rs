@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::super::extent::pixel_count;
 use super::super::paths::pixel_of;
 use super::sum::{Rays, Sum};
-use super::unguided::{Tale, UnguidedRecord};
-use super::watched::{Record, Watched};
+use super::trial_path::{Record, TrialPath};
+use super::unguided::{UnguidedEstimate, UnguidedRecord};
 use crate::compare::metrics::relative_weight;
 use crate::reference::integrator::Integrator;
 use crate::reference::work;
@@ -40,7 +40,7 @@ pub fn tried_pixels(scene: &Scene) -> u32 {
 }
 
 /// The result of one way of drawing from lights.
-pub struct Found {
+pub struct TrialResult {
     pixels: Vec<TriedPixel>,
     /// The cost of its paths, in rays of paths.
     pub cost: f64,
@@ -48,23 +48,23 @@ pub struct Found {
     pub work: u64,
 }
 
-impl Found {
+impl TrialResult {
     /// Renders so many pixels; the cost is not known yet.
     pub fn new(integrator: &Integrator, pixels: u32) -> Self {
         Self::recorded::<()>(integrator, pixels).0
     }
 
-    /// Renders so many pixels by guided paths, with what they tell about unguided ones.
-    pub fn unguided(integrator: &Integrator, pixels: u32) -> (Self, Vec<Tale>) {
+    /// Renders so many pixels by guided paths, with their estimates of unguided ones.
+    pub fn unguided(integrator: &Integrator, pixels: u32) -> (Self, Vec<UnguidedEstimate>) {
         Self::recorded::<UnguidedRecord>(integrator, pixels)
     }
 
-    fn recorded<R: Record>(integrator: &Integrator, pixels: u32) -> (Self, Vec<R::Told>) {
+    fn recorded<R: Record>(integrator: &Integrator, pixels: u32) -> (Self, Vec<R::Statistics>) {
         let pictures = pictures(integrator, PICTURES);
         let of_pixel = |number| work::of(|| TriedPixel::of::<R>(integrator, &pictures, number));
         let (tried, works): (Vec<_>, Vec<u64>) = (0..pixels).into_par_iter().map(of_pixel).unzip();
-        let (pixels, told) = tried.into_iter().unzip();
-        (Self { pixels, cost: 0.0, work: works.into_iter().sum() }, told)
+        let (pixels, statistics) = tried.into_iter().unzip();
+        (Self { pixels, cost: 0.0, work: works.into_iter().sum() }, statistics)
     }
 
     /// Paths that each way traces for so many pixels.
@@ -101,7 +101,7 @@ impl Found {
         self.loss_beside(other, in_view, &together)
     }
 
-    /// [`Found::loss_over`] for a way that makes outliers darker and more frequent. Errors are relative to
+    /// [`TrialResult::loss_over`] for a way that makes outliers darker and more frequent. Errors are relative to
     /// the light around a pixel: relative to that in the pixel itself, an outlier would count the same
     /// however bright it is.
     pub fn loss_of_outliers_over(&self, other: &Self, in_view: &InView) -> f64 {
@@ -131,10 +131,10 @@ impl Found {
 
 /// The error of guided paths, and that of unguided ones. Samples depend on each other by their random
 /// numbers, which makes the error less than the variance of a sample says, by the same share either way.
-pub fn errors_of_guiding(found: &Found, tales: &[Tale], in_view: &InView) -> [f64; 2] {
+pub fn errors_of_guiding(found: &TrialResult, estimates: &[UnguidedEstimate], in_view: &InView) -> [f64; 2] {
     let mut variances = [0.0; 2];
-    for ((pixel, weight), tale) in found.weighed().zip(tales) {
-        for (variance, moment) in variances.iter_mut().zip([tale.guided, tale.unguided]) {
+    for ((pixel, weight), estimate) in found.weighed().zip(estimates) {
+        for (variance, moment) in variances.iter_mut().zip([estimate.guided, estimate.unguided]) {
             *variance += ((moment - pixel.mean * pixel.mean) * weight).sum();
         }
     }
@@ -181,7 +181,7 @@ fn weight(mean: Spectrum) -> Spectrum {
     mean.map(relative_weight)
 }
 
-/// Lamps and the environment as they are in view. All ways of drawing from lights have the same noise at
+/// Emitters and the environment as they are in view. All ways of drawing from lights have the same noise at
 /// their edges, which few pixels show: those that are tried may miss them.
 pub struct InView {
     /// Mean and variance of pixels.
@@ -222,35 +222,35 @@ impl InView {
 }
 
 /// The random numbers of one of the independent pictures.
-struct Picture {
+struct Replication {
     sampling: Sampling,
     points: Vec<SequencePoint>,
 }
 
-fn pictures(integrator: &Integrator, count: u32) -> Vec<Picture> {
+fn pictures(integrator: &Integrator, count: u32) -> Vec<Replication> {
     let picture = |number: u32| {
         let seed = mix(SEED.wrapping_add(number));
         let sampling = Sampling { seed, samples: SAMPLES, ..Sampling::from(&integrator.scene().render) };
-        Picture { sampling, points: (0..SAMPLES).map(|sample| SequencePoint::new(&sampling, sample)).collect() }
+        Replication { sampling, points: (0..SAMPLES).map(|sample| SequencePoint::new(&sampling, sample)).collect() }
     };
     (0..count).map(picture).collect()
 }
 
-impl Picture {
+impl Replication {
     /// Renders a pixel.
-    fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> Shown<R::Told> {
+    fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> PixelEstimate<R::Statistics> {
         let size = integrator.scene().film.size;
         let [x, y] = pixel_of(number, size);
         let pixel = y.wrapping_mul(size[0]).wrapping_add(x);
-        let mut shown: Shown<R::Told> = Shown::default();
+        let mut shown: PixelEstimate<R::Statistics> = PixelEstimate::default();
         for point in &self.points {
-            let mut path = Watched::<R>::new(&integrator.scene().render);
+            let mut path = TrialPath::<R>::new(&integrator.scene().render);
             let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut path);
             // The film leaves out what is not finite, too.
             if found.is_finite() {
                 shown.in_view += path.in_view / f64::from(SAMPLES);
                 shown.beyond += (found - path.in_view) / f64::from(SAMPLES);
-                shown.told = shown.told.and(path.record.told());
+                shown.statistics = shown.statistics.and(path.record.statistics());
             }
             shown.rays = shown.rays.and(path.rays);
         }
@@ -260,12 +260,12 @@ impl Picture {
 
 /// Light that the first edges of a pixel's paths find, and light beyond those.
 #[derive(Default)]
-struct Shown<T> {
+struct PixelEstimate<T> {
     in_view: Spectrum,
     beyond: Spectrum,
     rays: Rays,
     /// By all samples together.
-    told: T,
+    statistics: T,
 }
 
 /// The mean of some values, and the variance of one of them.
@@ -285,14 +285,15 @@ struct TriedPixel {
 }
 
 impl TriedPixel {
-    /// With what a sample of it tells of other ways.
-    fn of<R: Record>(integrator: &Integrator, pictures: &[Picture], number: u32) -> (Self, R::Told) {
-        let shown: Vec<Shown<R::Told>> = pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
+    /// With the statistics of a sample of it about other ways.
+    fn of<R: Record>(integrator: &Integrator, pictures: &[Replication], number: u32) -> (Self, R::Statistics) {
+        let shown: Vec<PixelEstimate<R::Statistics>> =
+            pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
         let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<Spectrum>>());
         let in_view = shown.iter().map(|shown| shown.in_view).sum::<Spectrum>() / f64::from(PICTURES);
-        let told = shown.iter().fold(R::Told::default(), |sum, shown| sum.and(shown.told));
+        let statistics = shown.iter().fold(R::Statistics::default(), |sum, shown| sum.and(shown.statistics));
         let rays = shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays));
-        (Self { in_view, mean, variance, rays }, told.times(1.0 / f64::from(PICTURES * SAMPLES)))
+        (Self { in_view, mean, variance, rays }, statistics.times(1.0 / f64::from(PICTURES * SAMPLES)))
     }
 }
 
@@ -303,8 +304,8 @@ mod tests {
     use super::*;
     use crate::load;
 
-    /// A lamp before the camera, from so far left to so far right.
-    fn lamp(from: f64, to: f64) -> Integrator {
+    /// An area light before the camera, from so far left to so far right.
+    fn area_light(from: f64, to: f64) -> Integrator {
         let text = format!(
             "[film]\nsize = [64, 64]\n[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = 40\n\
              [[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = 2\n\
@@ -318,13 +319,13 @@ mod tests {
     /// A light's edge within pixels makes their samples differ: by as much whether few pixels are looked at
     /// or all. A light that fills the view does not.
     #[test]
-    fn edges_of_lamps_in_view_have_noise() {
+    fn edges_of_emitters_in_view_have_noise() {
         let beyond = Spectrum::BLACK;
-        let error = |from, to, pixels| InView::new(&mut lamp(from, to), pixels).error(beyond) / f64::from(pixels);
+        let error = |from, to, pixels| InView::new(&mut area_light(from, to), pixels).error(beyond) / f64::from(pixels);
         assert_eq!(error(-9.0, 9.0, 64), 0.0);
         let [few, all] = [64, 1024].map(|pixels| error(-0.517, 0.391, pixels));
         assert!(all > 0.0 && (few / all - 1.0).abs() < 0.3, "{few} and {all}");
         // Relative to more light, it is less.
-        assert!(InView::new(&mut lamp(-0.517, 0.391), 64).error(Spectrum::grey(10.0)) < 0.1 * 64.0 * few);
+        assert!(InView::new(&mut area_light(-0.517, 0.391), 64).error(Spectrum::grey(10.0)) < 0.1 * 64.0 * few);
     }
 }

@@ -1,7 +1,7 @@
 //! Estimates of paths without a guide, made from guided ones.
 //!
 //! A trial run without a guide misjudges it, because it seldom sees the rare bright paths that a guide is
-//! for. Guided paths see them, and tell the variance of both ways: a path that has the density p_g with the
+//! for. Guided paths see them, and estimate the variance of both ways: a path that has the density p_g with the
 //! guide and p_u without it finds, without it, other contributions c₁, c₂, …, since throughput goes with one
 //! over the density and multiple importance sampling weighs by other densities. With rₖ = p_u / p_g up to
 //! where the k-th is found, roulette's chances included, the mean of Σₖ rₖ cₖ (cₖ + 2 Σ_{j<k} cⱼ) over guided
@@ -9,16 +9,16 @@
 //! its rays.
 
 use super::sum::{Rays, Sum};
-use super::watched::Record;
+use super::trial_path::Record;
 use crate::reference::bsdf::{BsdfSample, Density};
 use crate::reference::trace::LightConnection;
 use crate::reference::{mis, roulette};
 use crate::scene::{Estimator, MisHeuristic, RenderSettings};
 use crate::spectrum::Spectrum;
 
-/// Moments and rays of a sample, as guided paths tell them.
+/// Moments and rays of a sample, as guided paths estimate them.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Tale {
+pub struct UnguidedEstimate {
     /// Second moment of what guided ones find.
     pub guided: Spectrum,
     /// Second moment of what unguided ones would find, and their rays.
@@ -26,7 +26,7 @@ pub struct Tale {
     pub rays: Rays,
 }
 
-impl Sum for Tale {
+impl Sum for UnguidedEstimate {
     fn and(self, other: Self) -> Self {
         Self { guided: self.guided + other.guided, unguided: self.unguided + other.unguided, rays: self.rays.and(other.rays) }
     }
@@ -44,7 +44,7 @@ pub struct UnguidedRecord {
     first_roulette: Option<u32>,
     /// How many times as likely the path is without the guide, up to where it stands.
     density: f64,
-    /// The factor of the direction that the visitor was told of last.
+    /// The factor of the direction that the visitor was given last.
     times: f64,
     /// Density with the guide of the direction from the surface before, and how many times that it is without
     /// the guide.
@@ -76,7 +76,7 @@ impl UnguidedRecord {
 }
 
 impl Record for UnguidedRecord {
-    type Told = Tale;
+    type Statistics = UnguidedEstimate;
     const COMPARES: bool = true;
 
     fn new(settings: &RenderSettings) -> Self {
@@ -97,8 +97,8 @@ impl Record for UnguidedRecord {
         }
     }
 
-    fn told(&self) -> Tale {
-        Tale { guided: self.found * self.found, unguided: self.moment, rays: self.rays }
+    fn statistics(&self) -> UnguidedEstimate {
+        UnguidedEstimate { guided: self.found * self.found, unguided: self.moment, rays: self.rays }
     }
 
     fn traced(&mut self, rays: Rays) {

@@ -16,8 +16,8 @@ use super::texture::{self, PackedTextures};
 use super::world::WorldGeometry;
 use crate::emission_map::{EmissionMaps, Unrolled};
 use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
+use crate::sampling::light_strategy::LightStrategy;
 use crate::sampling::light_tree::{Emitter, LightNode};
-use crate::sampling::light_way::LightWay;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightCells, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, Scene};
@@ -61,8 +61,8 @@ pub struct SampledLights {
     pub cells: Vec<u32>,
 }
 
-/// The textures that the scene's lights throw, as they are [mentioned](texture::mention); NONE where a light throws none.
-pub fn thrown_textures(scene: &Scene) -> Vec<u32> {
+/// The textures that the scene's lights project, as they are [mentioned](texture::mention); NONE where a light projects none.
+pub fn projected_textures(scene: &Scene) -> Vec<u32> {
     let mention = |light: &Light| light.texture().map_or(NONE, |texture| texture::mention(texture, None));
     scene.lights.iter().map(mention).collect()
 }
@@ -77,7 +77,7 @@ pub fn collect(
     scene: &Scene,
     world: &mut WorldGeometry,
     environment: &PackedEnvironment,
-    thrown_textures: &[u32],
+    projected_textures: &[u32],
     textures: &mut PackedTextures,
 ) -> Result<SampledLights, PackError> {
     // Asked once a material, not once a triangle: a texture's mean looks at all of it, and a blend's at all of its parts.
@@ -118,7 +118,7 @@ pub fn collect(
         LightSource::Surface(number) => Some(surface_lights[number]),
         LightSource::Delta(number) => {
             let light = &scene.lights[number];
-            Some(PackedLight::delta(delta_kind(light)?, &light.delta()?, thrown_textures[number]))
+            Some(PackedLight::delta(delta_kind(light)?, &light.delta()?, projected_textures[number]))
         }
         LightSource::Environment => Some(PackedLight::at(DVec3::ZERO, Spectrum::BLACK).of_kind(LightKind::Environment)),
         LightSource::Portal(number) => portal_light(&world.portals[number]),
@@ -131,13 +131,13 @@ pub fn collect(
         light.pmf = table.pmf[index] as f32;
     }
     let local_count = sampler.local_count();
-    match LightWay::of(scene.render.light_choice, &sampler) {
-        LightWay::Power => return Ok(SampledLights { lights, local_count, ..SampledLights::default() }),
-        LightWay::Cells => {
+    match LightStrategy::of(scene.render.light_choice, &sampler) {
+        LightStrategy::Power => return Ok(SampledLights { lights, local_count, ..SampledLights::default() }),
+        LightStrategy::Cells => {
             let cells = LightCells::default().words().to_vec();
             return Ok(SampledLights { lights, local_count, cells, ..SampledLights::default() });
         }
-        LightWay::Tree => choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity()),
+        LightStrategy::Tree => choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity()),
     }
     let of_surface = |(primitive, surface): (&WorldPrimitive, &EmittingSurface)| {
         Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?, surface.power))

@@ -172,7 +172,7 @@ impl PackedLight {
         Self { kind_and_flags: self.kind_and_flags | kind as u32, ..self }
     }
 
-    /// A delta light that throws this texture, if any.
+    /// A delta light that projects this texture, if any.
     pub(super) fn delta(kind: LightKind, parameters: &LightParameters, texture: u32) -> Self {
         let [p1, p2] = parameters.vectors.map(|vector| vector.as_vec3().to_array());
         let (kind_and_flags, size) = (parameters.form << LIGHT_FORM_SHIFT, parameters.number as f32);
@@ -186,7 +186,7 @@ impl PackedLight {
     }
 
     /// True of a projection light: a delta light with a texture.
-    pub fn throws_texture(&self) -> bool {
+    pub fn projects_texture(&self) -> bool {
         self.is_delta() && self.attributes != NONE
     }
 

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::record::{
     LIGHT_BY_SOLID_ANGLE, LIGHT_MOVES, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES, LIGHT_WARPED, PackedLight, PackedWarp,
 };
-use crate::emission_map::{EmissionMaps, LampPart};
+use crate::emission_map::{EmissionMaps, EmitterPart};
 use crate::packed::attributes::TriangleAttributes;
 use crate::packed::material::{color_and_texture, mean_emission};
 use crate::packed::primitive::WorldPrimitive;
@@ -49,7 +49,7 @@ impl SurfaceEmission {
 
     /// Luminous power: π·A·L, twice that for two sides. `attributes` are those of the primitive, for either set of texture coordinates.
     pub fn power(&self, primitive: &WorldPrimitive, maps: &EmissionMaps, attributes: [Option<&TriangleAttributes>; 2]) -> f64 {
-        let of_part = lamp_part(primitive, attributes).and_then(|part| maps.luminance(self.material, &part));
+        let of_part = emitter_part(primitive, attributes).and_then(|part| maps.luminance(self.material, &part));
         let luminance = of_part.unwrap_or(self.mean_radiance.luminance());
         // An infinite plane that does not emit has no power: 0, not 0·∞.
         if luminance == 0.0 {
@@ -72,16 +72,16 @@ fn mean_color(scene: &Scene, input: &ColorInput) -> Spectrum {
     }
 }
 
-/// The part of a lamp that a primitive is; None of what has no texture coordinates.
-fn lamp_part(primitive: &WorldPrimitive, attributes: [Option<&TriangleAttributes>; 2]) -> Option<LampPart> {
+/// The part of an area light that a primitive is; None of what has no texture coordinates.
+fn emitter_part(primitive: &WorldPrimitive, attributes: [Option<&TriangleAttributes>; 2]) -> Option<EmitterPart> {
     if primitive.kind() != PrimitiveKind::Triangle {
-        return primitive.kind().unrolled().map(LampPart::Whole);
+        return primitive.kind().unrolled().map(EmitterPart::Whole);
     }
     let uvs =
         |of: &TriangleAttributes| [[of.u0, of.v0], [of.u1, of.v1], [of.u2, of.v2]].map(|[u, v]| DVec2::new(u.into(), v.into()));
     let first = uvs(attributes[0]?);
     let second = attributes[1].map_or(first, uvs);
-    Some(LampPart::Triangle(std::array::from_fn(|corner| Coordinates { first: first[corner], second: second[corner] })))
+    Some(EmitterPart::Triangle(std::array::from_fn(|corner| Coordinates { first: first[corner], second: second[corner] })))
 }
 
 /// The light that an emitting primitive is; None where it cannot be sampled. Whole shapes are drawn by `warp`, where there is one; `attributes` are

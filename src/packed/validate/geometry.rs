@@ -94,41 +94,41 @@ impl PackedScene {
     }
 
     pub(super) fn check_hierarchy(&self) -> Check {
-        let held = self.hierarchy.primitive_count as usize;
-        let Some(held) = self.primitives.get(..held).filter(|_| held <= MAX_PRIMITIVES) else {
-            return Err(format!("the hierarchy holds {held} primitives of {}", self.primitives.len()));
+        let count = self.hierarchy.primitive_count as usize;
+        let Some(in_hierarchy) = self.primitives.get(..count).filter(|_| count <= MAX_PRIMITIVES) else {
+            return Err(format!("the hierarchy holds {count} primitives of {}", self.primitives.len()));
         };
         if let Some(index) =
-            held.iter().position(|primitive| PrimitiveKind::of(primitive.kind()).is_some_and(PrimitiveKind::is_infinite))
+            in_hierarchy.iter().position(|primitive| PrimitiveKind::of(primitive.kind()).is_some_and(PrimitiveKind::is_infinite))
         {
             return Err(format!("primitive {index} has no bounds, and is in the hierarchy"));
         }
-        if let Some(index) = self.primitives[held.len()..].iter().position(|primitive| primitive.instance().is_some()) {
-            return Err(format!("primitive {} is an instance, and not in the hierarchy", held.len() + index));
+        if let Some(index) = self.primitives[in_hierarchy.len()..].iter().position(|primitive| primitive.instance().is_some()) {
+            return Err(format!("primitive {} is an instance, and not in the hierarchy", in_hierarchy.len() + index));
         }
         match self.hierarchy.traversal {
-            Traversal::Bvh => self.check_nodes(held),
-            Traversal::RayQuery => self.check_boxes(held),
+            Traversal::Bvh => self.check_nodes(in_hierarchy),
+            Traversal::RayQuery => self.check_boxes(in_hierarchy),
         }
     }
 
     /// A device knows primitives by their places alone: triangles first, then those that have boxes.
-    fn check_boxes(&self, held: &[Primitive]) -> Check {
+    fn check_boxes(&self, in_hierarchy: &[Primitive]) -> Check {
         if !self.hierarchy.nodes.is_empty() {
             return Err("there are nodes, and the device has its own".to_owned());
         }
         let is_triangle = |primitive: &Primitive| primitive.is(PrimitiveKind::Triangle);
         let boxes = self.hierarchy.boxes.len();
-        let first_shape = held.iter().position(|primitive| !is_triangle(primitive)).unwrap_or(held.len());
-        if held.len() - first_shape != boxes || held[first_shape..].iter().any(is_triangle) {
-            return Err(format!("{boxes} boxes stand for the primitives from {first_shape} to {}", held.len()));
+        let first_shape = in_hierarchy.iter().position(|primitive| !is_triangle(primitive)).unwrap_or(in_hierarchy.len());
+        if in_hierarchy.len() - first_shape != boxes || in_hierarchy[first_shape..].iter().any(is_triangle) {
+            return Err(format!("{boxes} boxes stand for the primitives from {first_shape} to {}", in_hierarchy.len()));
         }
         Ok(())
     }
 
     /// Every node but the roots is the child of one before it in its tree, every primitive is in one leaf, instances are in the scene's own tree,
     /// and the stack holds what waits.
-    fn check_nodes(&self, held: &[Primitive]) -> Check {
+    fn check_nodes(&self, in_hierarchy: &[Primitive]) -> Check {
         let (nodes, roots) = (&self.hierarchy.nodes, &self.hierarchy.roots);
         if nodes.is_empty() {
             return Err("there is no root".to_owned());
@@ -139,7 +139,7 @@ impl PackedScene {
         }
         let mut has_parent = vec![false; nodes.len()];
         roots.iter().for_each(|&root| has_parent[root as usize] = true);
-        let mut is_held = vec![false; held.len()];
+        let mut is_in_leaf = vec![false; in_hierarchy.len()];
         // The tree at hand: that of the scene, then those of groups.
         let mut tree = 0;
         for (index, node) in nodes.iter().enumerate() {
@@ -158,11 +158,11 @@ impl PackedScene {
                     },
                     Child::Leaf { first, count } => {
                         for primitive in first..first + count {
-                            match is_held.get_mut(primitive as usize) {
-                                Some(held) if !*held => *held = true,
+                            match is_in_leaf.get_mut(primitive as usize) {
+                                Some(seen) if !*seen => *seen = true,
                                 _ => return Err(format!("node {index} holds primitive {primitive}, missing or held twice")),
                             }
-                            if tree > 0 && held[primitive as usize].instance().is_some() {
+                            if tree > 0 && in_hierarchy[primitive as usize].instance().is_some() {
                                 return Err(format!("node {index} of a group holds an instance, primitive {primitive}"));
                             }
                         }
@@ -173,7 +173,7 @@ impl PackedScene {
         if let Some(orphan) = has_parent.iter().skip(1).position(|seen| !seen) {
             return Err(format!("node {} is nobody's child", orphan + 1));
         }
-        if let Some(missing) = is_held.iter().position(|held| !held) {
+        if let Some(missing) = is_in_leaf.iter().position(|seen| !seen) {
             return Err(format!("primitive {missing} is in no leaf"));
         }
         let needed = deepest_stack(nodes, roots);

@@ -69,7 +69,7 @@ impl Bsdf {
     pub fn new(scene: &Scene, surface: &Surface, wo: DVec3, u_blend: f64) -> Self {
         let view = View::new(wo, surface.point.normal, surface.shading_normal)
             .with_carried(surface.carried)
-            .with_unbent_normal(surface.unbent_normal)
+            .with_unperturbed_normal(surface.unperturbed_normal)
             .with_coat_normal(surface.coat_normal)
             .with_hemisphere(scene.render.hemisphere)
             .with_tangents(surface.tangents)

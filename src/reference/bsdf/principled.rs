@@ -74,7 +74,7 @@ impl Scatter for Principled {
         }
         let (mut value, mut probability) = ([0.0; 3], 0.0);
         for (channel, of_channel) in layers.iter().enumerate() {
-            // Channels that are bent otherwise come from elsewhere.
+            // Channels that are refracted otherwise come from elsewhere.
             if drawn.way != Way::Transmission || iors.to_rgb()[channel] == iors.to_rgb()[chosen] {
                 let (light, share) = of_channel.of_smooth(view, &of_channel.shares(view), drawn);
                 value[channel] = light.to_rgb()[channel];

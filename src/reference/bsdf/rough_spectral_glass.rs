@@ -1,4 +1,4 @@
-//! Rough dielectrics whose channels are not bent or reflected alike.
+//! Rough dielectrics whose channels are not refracted or reflected alike.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! The smooth dielectric whose channels are not bent or reflected alike.
+//! The smooth dielectric whose channels are not refracted or reflected alike.
 
 use glam::DVec3;
 
@@ -28,7 +28,7 @@ impl SpectralGlass {
         let etas = dielectric.etas(view).to_rgb();
         let eta = etas[ways.channel(u_lobe - ways.reflection)?];
         let wi = refract(view.wo, view.normal(), eta)?;
-        // The channels that are bent alike.
+        // The channels that are refracted alike.
         let [r, g, b] = etas.map(|other| if other == eta { 1.0 } else { 0.0 });
         let alike = Spectrum::new(r, g, b);
         let probability = (alike * Spectrum::from_rgb(ways.transmission)).sum();

@@ -31,9 +31,9 @@ pub struct View {
     pub tangents: Option<Tangents>,
     /// Tangents by the second texture coordinates, or by the only ones.
     second_tangents: Option<Tangents>,
-    /// The shading normal before a map bent it, where it shadows the bent one.
-    unbent_normal: Option<DVec3>,
-    /// The unbent normal on the front side, where coats lie about it.
+    /// The shading normal before a map perturbed it, where it shadows the perturbed one.
+    unperturbed_normal: Option<DVec3>,
+    /// The unperturbed normal on the front side, where coats lie about it.
     coat_normal: Option<DVec3>,
 }
 
@@ -52,7 +52,7 @@ impl View {
             hemisphere,
             tangents: None,
             second_tangents: None,
-            unbent_normal: None,
+            unperturbed_normal: None,
             coat_normal: None,
         }
     }
@@ -67,8 +67,8 @@ impl View {
         if sum > 0.0 { self.carried / sum } else { Spectrum::grey(1.0 / 3.0) }
     }
 
-    pub fn with_unbent_normal(self, unbent_normal: Option<DVec3>) -> Self {
-        Self { unbent_normal: unbent_normal.map(|normal| towards(self.wo, self.geometric_normal, normal)), ..self }
+    pub fn with_unperturbed_normal(self, unperturbed_normal: Option<DVec3>) -> Self {
+        Self { unperturbed_normal: unperturbed_normal.map(|normal| towards(self.wo, self.geometric_normal, normal)), ..self }
     }
 
     pub fn with_coat_normal(self, coat_normal: Option<DVec3>) -> Self {
@@ -78,31 +78,31 @@ impl View {
     /// The frame of a coat whose own normal map has this texel, if it has a map.
     pub(super) fn coat_frame(&self, texel: Option<NormalTexel>) -> Frame {
         let Some(normal) = self.coat_normal else { return self.frame };
-        let bent = texel.and_then(|NormalTexel { texel, scale, set }| {
+        let perturbed = texel.and_then(|NormalTexel { texel, scale, set }| {
             let tangents = if set == UvSet::Second { self.second_tangents } else { self.tangents };
             tangents?.direction(normal, texel, scale)
         });
-        Frame::around(towards(self.wo, self.geometric_normal, bent.unwrap_or(normal)))
+        Frame::around(towards(self.wo, self.geometric_normal, perturbed.unwrap_or(normal)))
     }
 
-    /// The view by a bent normal of a map with mirroring: a normal that is bent away from wo is mirrored
-    /// about the unbent normal, which is known, instead of being replaced by the geometric one.
-    pub fn with_mirrored_normal(self, bent: DVec3) -> Self {
-        let Some(unbent) = self.unbent_normal else { return self };
-        let normal = if bent.dot(self.geometric_normal) < 0.0 { -bent } else { bent };
-        let mirrored = 2.0 * normal.dot(unbent) * unbent - normal;
+    /// The view by a perturbed normal of a map with mirroring: a normal that is perturbed away from wo is mirrored
+    /// about the unperturbed normal, which is known, instead of being replaced by the geometric one.
+    pub fn with_mirrored_normal(self, perturbed: DVec3) -> Self {
+        let Some(unperturbed) = self.unperturbed_normal else { return self };
+        let normal = if perturbed.dot(self.geometric_normal) < 0.0 { -perturbed } else { perturbed };
+        let mirrored = 2.0 * normal.dot(unperturbed) * unperturbed - normal;
         if normal.dot(self.wo) > 0.0 || mirrored.dot(self.wo) <= 0.0 || mirrored.dot(self.geometric_normal) <= 0.0 {
             return self;
         }
         Self { frame: Frame::around(mirrored), ..self }
     }
 
-    /// Share of light between wo and `wi` that is left where a map bent the normal (Estevez, Lecocq and Stein
+    /// Share of light between wo and `wi` that is left where a map perturbed the normal (Estevez, Lecocq and Stein
     /// 2019): 1 where none did.
     pub fn shadowing(&self, wi: DVec3) -> f64 {
-        let Some(unbent) = self.unbent_normal else { return 1.0 };
+        let Some(unperturbed) = self.unperturbed_normal else { return 1.0 };
         let squared_tangent = |direction: DVec3| {
-            let squared_cosine = unbent.dot(direction).powi(2).clamp(1e-12, 1.0);
+            let squared_cosine = unperturbed.dot(direction).powi(2).clamp(1e-12, 1.0);
             (1.0 - squared_cosine) / squared_cosine
         };
         let alpha2 = (0.125 * squared_tangent(self.normal())).min(1.0);
@@ -172,7 +172,7 @@ mod tests {
     #[test]
     fn normals_that_look_away_are_mirrored() {
         let leaning = |degrees: f64| DVec3::new(degrees.to_radians().sin(), 0.0, degrees.to_radians().cos());
-        let view = |wo: DVec3, bent: DVec3| View::new(wo, DVec3::Z, bent).with_unbent_normal(Some(DVec3::Z));
+        let view = |wo: DVec3, perturbed: DVec3| View::new(wo, DVec3::Z, perturbed).with_unperturbed_normal(Some(DVec3::Z));
         let away = view(leaning(-80.0), leaning(30.0));
         assert_eq!(away.normal(), DVec3::Z);
         assert!((away.with_mirrored_normal(leaning(30.0)).normal() - leaning(-30.0)).length() < 1e-15);
@@ -181,17 +181,17 @@ mod tests {
         assert_eq!(towards.with_mirrored_normal(leaning(30.0)), towards);
     }
 
-    /// By hand: a normal bent by 45 degrees has the width ⅛ of its squared tangent.
+    /// By hand: a normal perturbed by 45 degrees has the width ⅛ of its squared tangent.
     #[test]
-    fn bent_normals_are_shadowed_by_the_surface() {
+    fn perturbed_normals_are_shadowed_by_the_surface() {
         let diagonal = DVec3::new(1.0, 0.0, 1.0).normalize();
-        let view = View::new(DVec3::Z, DVec3::Z, diagonal).with_unbent_normal(Some(DVec3::Z));
+        let view = View::new(DVec3::Z, DVec3::Z, diagonal).with_unperturbed_normal(Some(DVec3::Z));
         let at = |squared_tangent: f64| 2.0 / (1.0 + (1.0 + 0.125 * squared_tangent).sqrt());
         let wi = DVec3::new(0.0, 2.0, 1.0).normalize();
         assert!((view.shadowing(wi) - at(4.0)).abs() < 1e-12 && (view.shadowing(DVec3::Z) - 1.0).abs() < 1e-12);
         assert!((view.shadowing(wi) - at(3.0)).abs() > 1e-3);
-        // Nothing where nothing is bent, or where the surface throws no shadow.
-        assert_eq!(View::new(DVec3::Z, DVec3::Z, DVec3::Z).with_unbent_normal(Some(DVec3::Z)).shadowing(wi), 1.0);
+        // Nothing where nothing is perturbed, or where the surface throws no shadow.
+        assert_eq!(View::new(DVec3::Z, DVec3::Z, DVec3::Z).with_unperturbed_normal(Some(DVec3::Z)).shadowing(wi), 1.0);
         assert_eq!(View::new(DVec3::Z, DVec3::Z, diagonal).shadowing(wi), 1.0);
     }
 }

@@ -11,8 +11,8 @@ use crate::reference::lights::Lights;
 use crate::reference::medium::MediumStack;
 use crate::renderer::RenderError;
 use crate::sampling::hash::mix;
-use crate::sampling::light_way::LightWay;
-use crate::sampling::{Guide, LightCells, LitPoint};
+use crate::sampling::light_strategy::LightStrategy;
+use crate::sampling::{Guide, LightCells, LightSampleContext};
 use crate::scene::{ColorInput, Emission, Emitters, LightChoice, Media, RenderSettings, Scene};
 use crate::spectrum::Spectrum;
 
@@ -96,10 +96,10 @@ impl Integrator {
             return;
         }
         self.scene.render.light_choice = choice;
-        self.lights.set_way(match choice {
-            LightChoice::Auto | LightChoice::Power => LightWay::Power,
-            LightChoice::Tree => LightWay::Tree,
-            LightChoice::Cells => LightWay::Cells,
+        self.lights.set_strategy(match choice {
+            LightChoice::Auto | LightChoice::Power => LightStrategy::Power,
+            LightChoice::Tree => LightStrategy::Tree,
+            LightChoice::Cells => LightStrategy::Cells,
         });
     }
 
@@ -110,7 +110,7 @@ impl Integrator {
 
     /// The cells by which lights are chosen; None where they are chosen otherwise.
     pub fn light_cells(&self) -> Option<&Arc<LightCells>> {
-        self.lights.in_cells().filter(|_| self.lights.way() == LightWay::Cells).map(|(choice, _)| &choice.cells)
+        self.lights.in_cells().filter(|_| self.lights.strategy() == LightStrategy::Cells).map(|(choice, _)| &choice.cells)
     }
 
     /// Keeps what was learned, where lights may be chosen by cells.
@@ -121,7 +121,12 @@ impl Integrator {
     /// Light that one of the lights brings to a point of a surface when the shutter opens: an estimate, by two
     /// random numbers, of the integral of luminance and cosine, without what stands in between and with it.
     /// Without a normal the cosine counts as 1.
-    pub fn light_reaching(&self, (from, normal): (LitPoint, DVec3), chosen: (usize, f64), numbers: [u32; 2]) -> [f64; 2] {
+    pub fn light_reaching(
+        &self,
+        (from, normal): (LightSampleContext, DVec3),
+        chosen: (usize, f64),
+        numbers: [u32; 2],
+    ) -> [f64; 2] {
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
         let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), from, chosen, numbers) else {
             return [0.0; 2];
@@ -139,8 +144,8 @@ impl Integrator {
     }
 
     /// How lights are chosen.
-    pub fn light_way(&self) -> LightWay {
-        self.lights.way()
+    pub fn light_strategy(&self) -> LightStrategy {
+        self.lights.strategy()
     }
 
     /// Lets paths have so many edges; returns how many they had.

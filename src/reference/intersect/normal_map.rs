@@ -100,14 +100,14 @@ impl NormalMaps {
         Self { textures: if any { scene.textures.clone() } else { Vec::new() }, of_material }
     }
 
-    /// Says that the shadowing term of bent normals applies to the material's map.
+    /// Says that the shadowing term of perturbed normals applies to the material's map.
     pub fn shadows(&self, material: MaterialId) -> bool {
-        self.of_material[material].is_some_and(|texture| self.textures[texture].shadows_bent_normals)
+        self.of_material[material].is_some_and(|texture| self.textures[texture].shadows_perturbed_normals)
     }
 
     /// Normals that the material's map bends away from the viewer are mirrored.
     pub fn mirrors(&self, material: MaterialId) -> bool {
-        self.of_material[material].is_some_and(|texture| self.textures[texture].mirrors_bent_normals)
+        self.of_material[material].is_some_and(|texture| self.textures[texture].mirrors_perturbed_normals)
     }
 
     /// The shading normal as the material's map bends it; as it is where there is no map or no tangent. `tangents` are those of the coordinates
@@ -121,7 +121,7 @@ impl NormalMaps {
     ) -> DVec3 {
         let Some(texture) = self.of_material[material] else { return normal };
         let Some(tangents) = tangents(UvSet::of_directions(&self.textures[texture])) else { return normal };
-        let bent = match self.textures[texture].relief {
+        let perturbed = match self.textures[texture].relief {
             Relief::Normals(scale) => {
                 let texel = texture::look_up(&self.textures, texture, uv).to_vector();
                 tangents.direction(normal, texel, scale)
@@ -130,7 +130,7 @@ impl NormalMaps {
                 tangents.lifted(normal, geometric_normal, scale * texture::gradient::gradient(&self.textures, texture, uv))
             }
         };
-        bent.unwrap_or(normal)
+        perturbed.unwrap_or(normal)
     }
 }
 
@@ -142,8 +142,8 @@ mod tests {
     fn a_flat_texel_leaves_the_normal() {
         let tangents = Tangents::along(DVec3::new(2.0, 0.5, 0.0), DVec3::new(-0.3, 1.0, 0.4));
         let normal = DVec3::new(0.1, -0.2, 1.0).normalize();
-        let bent = tangents.direction(normal, DVec3::new(0.5, 0.5, 1.0), 1.0).expect("there is a tangent");
-        assert!((bent - normal).length() < 1e-15);
+        let perturbed = tangents.direction(normal, DVec3::new(0.5, 0.5, 1.0), 1.0).expect("there is a tangent");
+        assert!((perturbed - normal).length() < 1e-15);
     }
 
     #[test]
@@ -151,9 +151,9 @@ mod tests {
         // v grows upward for one, downward for the other: a mirrored mapping.
         for along_v in [DVec3::Y, -DVec3::Y] {
             let tangents = Tangents::along(DVec3::X * 3.0, along_v);
-            let bent = |r, g| tangents.direction(DVec3::Z, DVec3::new(r, g, 1.0), 1.0).expect("there is a tangent");
-            assert!((bent(1.0, 0.5) - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-15);
-            assert!((bent(0.5, 1.0) - (DVec3::Z + along_v).normalize()).length() < 1e-15);
+            let perturbed = |r, g| tangents.direction(DVec3::Z, DVec3::new(r, g, 1.0), 1.0).expect("there is a tangent");
+            assert!((perturbed(1.0, 0.5) - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-15);
+            assert!((perturbed(0.5, 1.0) - (DVec3::Z + along_v).normalize()).length() < 1e-15);
         }
         assert_eq!(Tangents::along(DVec3::Z, DVec3::Y).direction(DVec3::Z, DVec3::ONE, 1.0), None);
     }

@@ -11,7 +11,7 @@ use super::owner::{Owner, SurfaceId};
 use super::pose::{self, PathTime, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive};
-use crate::emission_map::LampPart;
+use crate::emission_map::EmitterPart;
 use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::scene::{MaterialId, Scene, Shape};
@@ -32,13 +32,13 @@ pub struct Surface {
     pub id: SurfaceId,
     pub owner: Owner,
     pub point: SurfacePoint,
-    /// Interpolated over the faces of smooth meshes, else the geometric normal; then bent by the material's normal map.
+    /// Interpolated over the faces of smooth meshes, else the geometric normal; then perturbed by the material's normal map.
     pub shading_normal: DVec3,
-    /// The normal before that, where it shadows the bent one.
-    pub unbent_normal: Option<DVec3>,
+    /// The normal before that, where it shadows the perturbed one.
+    pub unperturbed_normal: Option<DVec3>,
     /// The shading normal where a coat lies about it, or about what the coat's own map makes of it.
     pub coat_normal: Option<DVec3>,
-    /// A normal that is bent away from the viewer is mirrored about the normal before that.
+    /// A normal that is perturbed away from the viewer is mirrored about the normal before that.
     pub is_mirrored: bool,
     pub uv: DVec2,
     /// The second texture coordinates, of a mesh that has them.
@@ -141,12 +141,12 @@ impl World {
         &self.primitives[index]
     }
 
-    /// The part of a lamp that a primitive is; None of what has no texture coordinates.
-    pub fn lamp_part(&self, index: usize) -> Option<LampPart> {
+    /// The part of an area light that a primitive is; None of what has no texture coordinates.
+    pub fn emitter_part(&self, index: usize) -> Option<EmitterPart> {
         let owner = self.owners[index];
         match &self.primitives[index] {
-            Primitive::Triangle(_) => self.shapes[owner.shape].coordinates_of_corners(owner.part).map(LampPart::Triangle),
-            Primitive::Other(element) => element.unrolled().map(LampPart::Whole),
+            Primitive::Triangle(_) => self.shapes[owner.shape].coordinates_of_corners(owner.part).map(EmitterPart::Triangle),
+            Primitive::Other(element) => element.unrolled().map(EmitterPart::Whole),
         }
     }
 
@@ -254,7 +254,7 @@ impl World {
                 product = 0.0;
                 return false;
             }
-            work::add(work::VEIL);
+            work::add(work::TRANSLUCENT_SURFACE);
             let near = self.surface(&ray, &Hit { surface, distance, local }, time);
             product *= share(&near);
             // The far side of what is curved; instances are of triangles.
@@ -323,7 +323,7 @@ impl World {
                     owner,
                     point,
                     shading_normal: point.normal,
-                    unbent_normal: None,
+                    unperturbed_normal: None,
                     coat_normal: None,
                     is_mirrored: false,
                     uv: DVec2::ZERO,
@@ -373,14 +373,14 @@ impl World {
         let second_tangents = if uses_tangents && second_uv.is_some() { tangents(UvSet::Second) } else { None };
         let tangents = if uses_tangents { tangents(UvSet::First) } else { None };
         let coat_normal = self.coat_normals_differ[owner.material].then_some(normal);
-        let unbent_normal = self.normal_maps.shadows(owner.material).then_some(normal);
+        let unperturbed_normal = self.normal_maps.shadows(owner.material).then_some(normal);
         let is_mirrored = self.normal_maps.mirrors(owner.material);
         Surface {
             id,
             owner,
             point,
             shading_normal,
-            unbent_normal,
+            unperturbed_normal,
             coat_normal,
             is_mirrored,
             uv,

@@ -8,10 +8,10 @@ mod directional;
 mod environment;
 mod outside;
 mod point;
+mod projected_picture;
 mod projector;
 mod sky;
 mod spot;
-mod thrown_picture;
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -23,11 +23,11 @@ use glam::{DVec2, DVec3};
 use super::emission::{emitted, mean_exitance};
 use super::intersect::{Outline, Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use super::work;
-use crate::emission_map::{EmissionMaps, LampPart, Unrolled};
-use crate::sampling::light_cells::{LightCellChoice, LightCells, LitPoint};
+use crate::emission_map::{EmissionMaps, EmitterPart, Unrolled};
+use crate::sampling::light_cells::{LightCellChoice, LightCells, LightSampleContext};
 use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
+use crate::sampling::light_strategy::LightStrategy;
 use crate::sampling::light_tree::Emitter;
-use crate::sampling::light_way::LightWay;
 use crate::sampling::sampler::uniform;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightTree};
 use crate::scene::light::light_table;
@@ -79,7 +79,7 @@ pub struct Lights {
     local_count: usize,
     /// How many groups they make.
     group_count: usize,
-    way: LightWay,
+    strategy: LightStrategy,
     table: AliasTable,
     /// The tree of several lights inside the scene, where they may be chosen by it or by cells, which are
     /// learned by its help. Lights at infinity have the
@@ -132,7 +132,8 @@ impl Lights {
             if exitances[material] == 0.0 {
                 continue;
             }
-            let of_part = world.lamp_part(index).and_then(|part| exitance_of_part(&maps, (material, two_sided[material]), &part));
+            let of_part =
+                world.emitter_part(index).and_then(|part| exitance_of_part(&maps, (material, two_sided[material]), &part));
             let power = world.primitive(index).area() * of_part.unwrap_or(exitances[material]);
             if power > 0.0 {
                 if let Some(unrolled) = world.primitive(index).element().unrolled() {
@@ -161,16 +162,16 @@ impl Lights {
         let environment_light = sources.iter().position(|source| *source == LightSource::Environment);
         let first_portal = sources.iter().position(|source| matches!(source, LightSource::Portal(_))).unwrap_or(sources.len());
         let sampling = scene.render.light_sampling;
-        let (way, group_count) = (LightWay::of(scene.render.light_choice, &sampler), sampler.group_count());
-        let has_tree = way != LightWay::Power && local_count > 1;
+        let (strategy, group_count) = (LightStrategy::of(scene.render.light_choice, &sampler), sampler.group_count());
+        let has_tree = strategy != LightStrategy::Power && local_count > 1;
         let tree = has_tree.then(|| LightTree::new(&emitters(scene, world, &indices, &surfaces), sampler.table_at_infinity()));
         let table = sampler.table();
-        let cells = (way == LightWay::Cells).then(|| LightCellChoice::new(table.clone()));
+        let cells = (strategy == LightStrategy::Cells).then(|| LightCellChoice::new(table.clone()));
         Self {
             lights,
             local_count,
             group_count,
-            way,
+            strategy,
             table,
             tree,
             cells,
@@ -195,10 +196,10 @@ impl Lights {
     }
 
     /// The light that 32 random bits choose at a point, and the probability of that.
-    fn choose(&self, from: LitPoint, bits: u32) -> (usize, f64) {
-        match (self.way, &self.cells, &self.tree) {
-            (LightWay::Cells, Some(cells), _) => cells.choose(from, bits),
-            (LightWay::Tree, _, Some(tree)) => tree.choose(from.point, bits),
+    fn choose(&self, from: LightSampleContext, bits: u32) -> (usize, f64) {
+        match (self.strategy, &self.cells, &self.tree) {
+            (LightStrategy::Cells, Some(cells), _) => cells.choose(from, bits),
+            (LightStrategy::Tree, _, Some(tree)) => tree.choose(from.point, bits),
             _ => {
                 let light = self.table.choose(bits);
                 (light, self.table.pmf[light])
@@ -207,7 +208,7 @@ impl Lights {
     }
 
     /// By how much drawing a direction to the light that these bits choose magnifies rounding errors of its random numbers.
-    pub fn magnifies(&self, (world, time): (&World, &PathTime), from: LitPoint, choice: u32) -> f64 {
+    pub fn magnifies(&self, (world, time): (&World, &PathTime), from: LightSampleContext, choice: u32) -> f64 {
         match self.lights[self.choose(from, choice).0] {
             SampledLight::Area(index) => {
                 let pose = world.pose(index, time);
@@ -218,10 +219,10 @@ impl Lights {
     }
 
     /// The probability with which a light is chosen at a point.
-    fn probability(&self, from: LitPoint, light: usize) -> f64 {
-        match (self.way, &self.cells, &self.tree) {
-            (LightWay::Cells, Some(cells), _) => cells.probability(from, light),
-            (LightWay::Tree, _, Some(tree)) if light < self.local_count => tree.probability(from.point, light),
+    fn probability(&self, from: LightSampleContext, light: usize) -> f64 {
+        match (self.strategy, &self.cells, &self.tree) {
+            (LightStrategy::Cells, Some(cells), _) => cells.probability(from, light),
+            (LightStrategy::Tree, _, Some(tree)) if light < self.local_count => tree.probability(from.point, light),
             _ => self.table.pmf[light],
         }
     }
@@ -256,13 +257,13 @@ impl Lights {
     }
 
     /// Chooses lights in another way, out of those that were made ready.
-    pub fn set_way(&mut self, way: LightWay) {
-        self.way = way;
+    pub fn set_strategy(&mut self, strategy: LightStrategy) {
+        self.strategy = strategy;
     }
 
     /// How lights are chosen.
-    pub fn way(&self) -> LightWay {
-        self.way
+    pub fn strategy(&self) -> LightStrategy {
+        self.strategy
     }
 
     /// Some light goes straight through surfaces of this material.
@@ -302,7 +303,7 @@ impl Lights {
         &self,
         scene: &Scene,
         moment: (&World, &PathTime),
-        from: impl Into<LitPoint>,
+        from: impl Into<LightSampleContext>,
         choice: u32,
         numbers: [u32; 2],
     ) -> Option<LightSample> {
@@ -315,7 +316,7 @@ impl Lights {
         &self,
         scene: &Scene,
         (world, time): (&World, &PathTime),
-        from: LitPoint,
+        from: LightSampleContext,
         (light, probability): (usize, f64),
         [u, v]: [u32; 2],
     ) -> Option<LightSample> {
@@ -373,7 +374,13 @@ impl Lights {
 
     /// The place of the light that is chosen at a point, by bits as [`Lights::sample`] has them: a point of its surface, the centre of a sphere, or
     /// its position. None of lights at infinity.
-    pub fn place(&self, (world, time): (&World, &PathTime), from: LitPoint, choice: u32, [u, v]: [u32; 2]) -> Option<DVec3> {
+    pub fn place(
+        &self,
+        (world, time): (&World, &PathTime),
+        from: LightSampleContext,
+        choice: u32,
+        [u, v]: [u32; 2],
+    ) -> Option<DVec3> {
         let (light, probability) = self.choose(from, choice);
         match &self.lights[light] {
             _ if probability == 0.0 => None,
@@ -387,13 +394,13 @@ impl Lights {
 
     /// Density, per steradian, with which [`Lights::sample`] draws the direction `wi` for the environment, by whichever way; 0 where it
     /// cannot.
-    pub fn environment_pdf(&self, world: &World, from: impl Into<LitPoint>, wi: DVec3) -> f64 {
+    pub fn environment_pdf(&self, world: &World, from: impl Into<LightSampleContext>, wi: DVec3) -> f64 {
         let from = from.into();
         let itself = self.environment_light.map_or(0.0, |light| self.probability(from, light) * self.outside.pdf(wi));
         itself + self.portal_pdf(world, from, wi)
     }
 
-    fn portal_pdf(&self, world: &World, from: LitPoint, wi: DVec3) -> f64 {
+    fn portal_pdf(&self, world: &World, from: LightSampleContext, wi: DVec3) -> f64 {
         let portals = self.first_portal..self.lights.len();
         if portals.is_empty() {
             return 0.0;
@@ -405,7 +412,7 @@ impl Lights {
     }
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.
-    pub fn pdf(&self, (world, time): (&World, &PathTime), from: impl Into<LitPoint>, surface: &Surface) -> f64 {
+    pub fn pdf(&self, (world, time): (&World, &PathTime), from: impl Into<LightSampleContext>, surface: &Surface) -> f64 {
         let from = from.into();
         let reference = from.point;
         let SurfaceId::Primitive(index) = surface.id else { return 0.0 };
@@ -426,7 +433,7 @@ impl Lights {
 
 /// [`mean_exitance`] for the part of a material that lies between these texture coordinates; None: nothing
 /// more is known of it.
-fn exitance_of_part(maps: &EmissionMaps, (material, two_sided): (MaterialId, bool), part: &LampPart) -> Option<f64> {
+fn exitance_of_part(maps: &EmissionMaps, (material, two_sided): (MaterialId, bool), part: &EmitterPart) -> Option<f64> {
     Some(PI * maps.luminance(material, part)? * if two_sided { 2.0 } else { 1.0 })
 }
 

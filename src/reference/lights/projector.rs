@@ -3,17 +3,17 @@
 use glam::DVec3;
 
 use super::delta::{Arriving, DeltaLight};
-use super::thrown_picture::Picture;
+use super::projected_picture::ProjectedPicture;
 use crate::scene::{Projector, Scene};
 
 #[derive(Debug)]
 pub struct Thrower {
     light: Projector,
-    picture: Picture,
+    picture: ProjectedPicture,
 }
 
 pub fn new(light: &Projector, scene: &Scene) -> Thrower {
-    let picture = Picture::new(light.direction, light.up, light.half_extent(), light.texture, scene);
+    let picture = ProjectedPicture::new(light.direction, light.up, light.half_extent(), light.texture, scene);
     Thrower { light: *light, picture }
 }
 

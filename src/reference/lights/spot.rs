@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::delta::{Arriving, DeltaLight};
-use super::thrown_picture::Picture;
+use super::projected_picture::ProjectedPicture;
 use crate::scene::{FalloffCurve, Scene, SpotLight};
 use crate::spectrum::Spectrum;
 
@@ -15,13 +15,14 @@ pub struct Spot {
     /// Angles at which there is no light and at which there is all, in radians.
     angles: [f64; 2],
     curve: FalloffCurve,
-    picture: Option<Picture>,
+    picture: Option<ProjectedPicture>,
 }
 
 pub fn new(light: &SpotLight, scene: &Scene) -> Spot {
     let half_width = light.angle_degrees.to_radians().tan();
-    let picture =
-        light.picture.map(|picture| Picture::new(light.direction, picture.up, [half_width; 2], Some(picture.texture), scene));
+    let picture = light
+        .picture
+        .map(|picture| ProjectedPicture::new(light.direction, picture.up, [half_width; 2], Some(picture.texture), scene));
     Spot {
         position: light.position,
         axis: light.direction,

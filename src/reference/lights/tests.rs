@@ -269,7 +269,7 @@ fn points_of_pictures_follow_their_density() {
         let (lights, time) = (Lights::new(&scene, &world), PathTime::default());
         let bits = |u: f64| (u * 4_294_967_296.0) as u32;
         let draw = |[u, v]: [f64; 2]| lights.sample(&scene, (&world, &time), reference, 0, [bits(u), bits(v)]);
-        let (_, warp) = lights.warp(&world, 0).expect("it is lit unevenly");
+        let (_, warp) = lights.warp(&world, 0).expect("it emits unevenly");
         let (mut differ, mut counts) = (0, [0_u64; 20]);
         let mut random = SplitMix64::new(7);
         let samples = 20_000;

@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn what_decides_the_picture_is_told_by_name() {
+    fn what_decides_the_picture_is_reported_by_name() {
         let ours = Identity::new(&provenance(), [4, 3], None, true);
         let difference =
             |theirs: Provenance| ours.difference(&Identity::new(&theirs, [4, 3], None, true)).map(|found| found.to_string());

@@ -9,7 +9,7 @@ use super::file::{self, Content, DAMAGED};
 use super::identity::Identity;
 use crate::output::OutputError;
 use crate::render::error_estimate::ErrorEstimate;
-use crate::renderer::state::{BatchState, FilmState, MOST_SAMPLES_PER_SWEEP, Tally};
+use crate::renderer::state::{BatchState, FilmState, MOST_SAMPLES_PER_ITERATION, Tally};
 
 /// How far a render is.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ pub struct Saved {
 /// A render in steps, before the batch under way.
 #[derive(Debug, Clone, Default)]
 pub struct StepsState {
-    pub place: Place,
+    pub place: StepPosition,
     pub tally: Tally,
     /// Sums of the picture: means by their numbers of samples, and these.
     pub radiance: Vec<[f32; 3]>,
@@ -48,7 +48,7 @@ pub struct StepsState {
 
 /// The position of a render in its steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Place {
+pub struct StepPosition {
     /// The stage and the interval of the doublings, where samples follow the noise.
     pub stage: usize,
     pub interval: usize,
@@ -72,7 +72,9 @@ struct Header {
 struct BatchHeader {
     rows: [u32; 2],
     done: u32,
-    sweep: u32,
+    /// Checkpoints hold it by its old name.
+    #[serde(rename = "sweep")]
+    iteration: u32,
     reached: u32,
     tally: [u64; 5],
     pixels: usize,
@@ -81,7 +83,7 @@ struct BatchHeader {
 
 #[derive(Serialize, Deserialize)]
 struct StepsHeader {
-    place: Place,
+    place: StepPosition,
     tally: [u64; 5],
     pixels: usize,
     rows: usize,
@@ -115,11 +117,11 @@ impl Saved {
     /// # Errors
     /// The errors of [`file::write`].
     pub fn write(&self, path: &Path, identity: &Identity) -> Result<(), OutputError> {
-        let BatchState { rows, done, sweep, reached, film, tally } = &self.batch;
+        let BatchState { rows, done, iteration, reached, film, tally } = &self.batch;
         let batch = BatchHeader {
             rows: [rows.start, rows.end],
             done: *done,
-            sweep: *sweep,
+            iteration: *iteration,
             reached: *reached,
             tally: numbers(*tally),
             pixels: film.len(),
@@ -169,12 +171,12 @@ impl Saved {
     fn of(content: &mut Content<Header>, [width, height]: [u32; 2]) -> Result<Self, String> {
         let pixels = width as usize * height as usize;
         let damaged = || DAMAGED.to_owned();
-        let BatchHeader { rows, done, sweep, reached, tally: counted, pixels: of_batch, is_single } = content.header.batch;
+        let BatchHeader { rows, done, iteration, reached, tally: counted, pixels: of_batch, is_single } = content.header.batch;
         let rows = rows[0]..rows[1];
         let is_whole = of_batch == 0 || of_batch == rows.len() * width as usize;
         let is_empty_start = of_batch > 0 || (done == 0 && reached == 0);
         let fits = rows.start <= rows.end && rows.end <= height && reached as usize <= rows.len() * width as usize;
-        if !(fits && is_whole && is_empty_start && sweep <= MOST_SAMPLES_PER_SWEEP && (sweep > 0 || reached == 0)) {
+        if !(fits && is_whole && is_empty_start && iteration <= MOST_SAMPLES_PER_ITERATION && (iteration > 0 || reached == 0)) {
             return Err(damaged());
         }
         let film = if is_single {
@@ -182,7 +184,7 @@ impl Saved {
         } else {
             FilmState::Double { sums: content.array(of_batch)?, samples: content.array(of_batch)? }
         };
-        let batch = BatchState { rows, done, sweep, reached, film: Arc::new(film), tally: tally(counted) };
+        let batch = BatchState { rows, done, iteration, reached, film: Arc::new(film), tally: tally(counted) };
         let steps = match content.header.steps.take() {
             None => None,
             Some(header) if header.pixels == pixels && header.rows == height as usize => Some(StepsState {
@@ -235,9 +237,10 @@ mod tests {
         ];
         for film in films {
             let (done, reached) = if film.is_empty() { (0, 0) } else { (5, 3) };
-            let batch = BatchState { rows: 1..3, done, sweep: 2, reached, film: Arc::new(film), tally: tally([1, 2, 3, 4, 5]) };
+            let batch =
+                BatchState { rows: 1..3, done, iteration: 2, reached, film: Arc::new(film), tally: tally([1, 2, 3, 4, 5]) };
             let steps = StepsState {
-                place: Place { stage: 1, interval: 2, next: 3, requests: 4, stream: 5 },
+                place: StepPosition { stage: 1, interval: 2, next: 3, requests: 4, stream: 5 },
                 tally: tally([4, 5, 6, 7, 8]),
                 radiance: vec![[0.5; 3]; 6],
                 counts: vec![3; 6],

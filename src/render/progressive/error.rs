@@ -1,4 +1,4 @@
-//! How far a picture is from the truth, told by independent renderings of it.
+//! How far a picture is from the truth, estimated from independent renderings of it.
 //!
 //! The picture is the mean of R streams with random numbers of their own, so the variance of their values, over R, is the expected
 //! squared error of the mean, whatever correlates the samples inside a stream. Its estimate from few streams is coarse in one pixel

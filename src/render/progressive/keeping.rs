@@ -2,13 +2,13 @@
 
 use std::io;
 
+use super::batch_sums::BatchSums;
 use super::doublings::Doublings;
 use super::error::ErrorEstimator;
-use super::picture::Picture;
 use super::watching::Watch;
 use crate::film::Band;
 use crate::render::checkpoint::Checkpoint;
-use crate::render::checkpoint::saved::{Place, StepsState};
+use crate::render::checkpoint::saved::{StepPosition, StepsState};
 use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
@@ -49,12 +49,12 @@ impl Sink for WholeBatch<'_> {
 pub struct StepBatch<'a> {
     pub checkpoint: Option<&'a mut Checkpoint>,
     pub watch: Watch<'a>,
-    pub picture: &'a mut Picture,
+    pub picture: &'a mut BatchSums,
     pub estimator: Option<&'a mut ErrorEstimator>,
     pub error: Option<ErrorEstimate>,
     pub doublings: Option<&'a mut Doublings>,
     pub levels: &'a [u8],
-    pub place: Place,
+    pub place: StepPosition,
     /// The counts of earlier batches.
     pub tally: Tally,
     pub selection: Option<&'a [bool]>,

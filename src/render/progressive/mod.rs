@@ -12,11 +12,11 @@
 //!   happened to be dark would get few more and stay dark: that estimator is biased.
 
 pub mod allocation;
+pub mod batch_sums;
 pub mod doublings;
 pub mod error;
 mod goal;
 mod keeping;
-pub mod picture;
 pub mod schedule;
 mod steps;
 mod watching;
@@ -31,7 +31,7 @@ use goal::stop_of;
 pub use goal::{Goal, Outcome, STREAMS, Stop};
 use keeping::WholeBatch;
 use steps::Work;
-use watching::{Watch, Watched};
+use watching::{Watch, WatchedSink};
 
 /// Renders the whole film of `size` and hands it over as bands from the top. `Band::samples` of an adaptive picture are the samples per
 /// pixel that were spent on average.
@@ -83,7 +83,7 @@ pub fn render_kept(
             resume: resume.as_ref(),
             ..Batch::of(&request)
         };
-        return render_sweeps(
+        return render_iterations(
             renderer,
             Watch { observer, batch: &batch, width: size[0], region: goal.region },
             checkpoint,
@@ -107,7 +107,7 @@ pub fn render_kept(
 
 /// Only time may end this render before its last sample, and the device's film has it all: the picture is,
 /// bit for bit, the one that no limit would have given, as far as it goes.
-fn render_sweeps(
+fn render_iterations(
     renderer: &mut dyn Renderer,
     watch: Watch<'_>,
     checkpoint: Option<&mut Checkpoint>,
@@ -118,10 +118,10 @@ fn render_sweeps(
     let goes_on_in_bands = batch.resume.is_some_and(|state| state.rows != batch.request.rows);
     let in_bands = goes_on_in_bands || !renderer.holds_whole_film();
     let report = match checkpoint {
-        None => renderer.render_into(batch, observer, &mut Watched::new(&mut on_band, watch))?,
+        None => renderer.render_into(batch, observer, &mut WatchedSink::new(&mut on_band, watch))?,
         Some(checkpoint) => {
             let mut kept = WholeBatch { checkpoint, on_band, in_bands };
-            renderer.render_into(batch, observer, &mut Watched::new(&mut kept, watch))?
+            renderer.render_into(batch, observer, &mut WatchedSink::new(&mut kept, watch))?
         }
     };
     let stop = stop_of(&report).unwrap_or(Stop::Samples);

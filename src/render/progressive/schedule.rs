@@ -19,7 +19,7 @@ const FEWEST_ADAPTIVE_SAMPLES: u32 = 4;
 
 /// Samples that are distributed at once. Their numbers are those of each stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stage {
+pub struct AdaptiveStage {
     /// Samples that every pixel has, those of earlier stages included; even, and twice the last stage's.
     pub floor: u32,
     /// Samples per pixel that are spent at the end of the stage, on average.
@@ -29,7 +29,7 @@ pub struct Stage {
 /// The stages of `samples` samples per pixel in each of `streams` that follow the noise. Each has twice the samples of the one before, so that whenever
 /// the render ends, what is spent is distributed by about the best that is known. None where samples are too few. They depend on numbers of samples
 /// alone, never on what was seen, and not on what may end the render: a limit that is not reached changes nothing.
-pub fn stages(samples: u32, streams: u32) -> Vec<Stage> {
+pub fn stages(samples: u32, streams: u32) -> Vec<AdaptiveStage> {
     if samples < FEWEST_ADAPTIVE_SAMPLES {
         return Vec::new();
     }
@@ -41,7 +41,7 @@ pub fn stages(samples: u32, streams: u32) -> Vec<Stage> {
     }
     let stage = |number: u32| {
         let floor = (2 * (half >> doublings)) << number;
-        Stage { floor, budget: if number == doublings { samples } else { 2 * floor } }
+        AdaptiveStage { floor, budget: if number == doublings { samples } else { 2 * floor } }
     };
     (0..=doublings).map(stage).collect()
 }

@@ -5,16 +5,16 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use super::allocation::{MOST_DOUBLINGS, allocate};
+use super::batch_sums::BatchSums;
 use super::doublings::Doublings;
 use super::error::ErrorEstimator;
 use super::goal::{Goal, Outcome, STREAMS, Stop, stop_of};
 use super::keeping::StepBatch;
-use super::picture::Picture;
-use super::schedule::{self, Clock, Stage, stages};
+use super::schedule::{self, AdaptiveStage, Clock, stages};
 use super::watching::Watch;
 use crate::film::Band;
 use crate::render::checkpoint::Checkpoint;
-use crate::render::checkpoint::saved::{Place, Saved, StepsState};
+use crate::render::checkpoint::saved::{Saved, StepPosition, StepsState};
 use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::sink::keep_between;
 use crate::renderer::state::{BatchState, Tally};
@@ -22,7 +22,7 @@ use crate::renderer::{Batch, Observer, RenderError, RenderReport, RenderRequest,
 use crate::sampling::hash::mix;
 
 /// Samples of each stream that are rendered of the same pixels.
-struct Part<'a> {
+struct StepSamples<'a> {
     /// Counted from the first of the goal.
     samples: Range<u32>,
     /// Which pixels take part; None: all.
@@ -40,13 +40,13 @@ pub struct Work<'a> {
     seed: u32,
     streams: u32,
     clock: Clock,
-    picture: Picture,
+    picture: BatchSums,
     estimator: Option<ErrorEstimator>,
     error: Option<ErrorEstimate>,
     report: RenderReport,
     checkpoint: Option<&'a mut Checkpoint>,
     /// The position in its steps.
-    place: Place,
+    place: StepPosition,
     /// How often each pixel's share was doubled before the stage under way.
     levels: Vec<u8>,
     /// The state of an earlier render, until this one is at the same position.
@@ -55,7 +55,7 @@ pub struct Work<'a> {
 
 /// The position from which a render goes on.
 struct Resume {
-    place: Place,
+    place: StepPosition,
     doublings: Option<Doublings>,
     batch: BatchState,
 }
@@ -73,12 +73,12 @@ impl<'a> Work<'a> {
             seed,
             streams,
             clock,
-            picture: Picture::new(size),
+            picture: BatchSums::new(size),
             estimator: goal.target_error.map(|_| ErrorEstimator::new(size, streams)),
             error: None,
             report: RenderReport::default(),
             checkpoint: None,
-            place: Place::default(),
+            place: StepPosition::default(),
             levels: Vec::new(),
             resume: None,
         }
@@ -106,7 +106,7 @@ impl<'a> Work<'a> {
     /// Goes on from the state of an earlier render; None where it is of another picture.
     pub fn go_on_from(&mut self, saved: Saved) -> Option<()> {
         let StepsState { place, tally, radiance, counts, row_samples, streams, looks, error, doublings, levels } = saved.steps?;
-        self.picture = Picture::with_sums(self.size, radiance, counts, row_samples)?;
+        self.picture = BatchSums::with_sums(self.size, radiance, counts, row_samples)?;
         self.estimator = match self.estimator.take() {
             Some(estimator) => Some(estimator.with_sums(streams, looks)?),
             None => None,
@@ -138,7 +138,7 @@ impl<'a> Work<'a> {
             return Err(RenderError::Internal("the checkpoint does not fit the render's stages".to_owned()));
         }
         let ended = if stages.is_empty() {
-            self.run_samples(&Part { samples: 0..per_stream, selection: None, share: 1.0 }, None)?
+            self.run_samples(&StepSamples { samples: 0..per_stream, selection: None, share: 1.0 }, None)?
         } else {
             self.run_stages(&stages)?
         };
@@ -147,7 +147,7 @@ impl<'a> Work<'a> {
 
     /// Gives more samples to the pixels that need them by what the first samples of all pixels show, stage by
     /// stage. None: all are done and the goal is not reached.
-    fn run_stages(&mut self, stages: &[Stage]) -> Result<Option<Stop>, RenderError> {
+    fn run_stages(&mut self, stages: &[AdaptiveStage]) -> Result<Option<Stop>, RenderError> {
         let pixels = self.size[0] as usize * self.size[1] as usize;
         let (mut at, kept) = match &mut self.resume {
             Some(resume) => (Some(resume.place), resume.doublings.take()),
@@ -157,7 +157,7 @@ impl<'a> Work<'a> {
         // How often each pixel's share of the stage is doubled by what it has.
         let mut levels = if at.is_some() { self.levels.clone() } else { vec![0_u8; pixels] };
         let first_stage = at.map_or(0, |place| place.stage);
-        for (index, &Stage { floor, budget }) in stages.iter().enumerate().skip(first_stage) {
+        for (index, &AdaptiveStage { floor, budget }) in stages.iter().enumerate().skip(first_stage) {
             // The first interval that is not over.
             let resumed = at.take().map(|place| place.interval);
             let first = resumed.unwrap_or(0);
@@ -165,7 +165,7 @@ impl<'a> Work<'a> {
             self.levels.clone_from(&levels);
             let half = floor / 2;
             if index == 0 && first == 0 {
-                let part = Part { samples: 0..half, selection: None, share: 1.0 };
+                let part = StepSamples { samples: 0..half, selection: None, share: 1.0 };
                 if let Some(stop) = self.run_samples(&part, Some((&mut doublings, 0)))? {
                     return Ok(Some(stop));
                 }
@@ -212,13 +212,13 @@ impl<'a> Work<'a> {
         }
         let share = selected as f64 / lacks.len() as f64;
         let selection = Some(lacks).filter(|lacks| selected < lacks.len());
-        self.run_samples(&Part { samples, selection, share }, Some((doublings, interval)))
+        self.run_samples(&StepSamples { samples, selection, share }, Some((doublings, interval)))
     }
 
     /// The steps of a part. None: all of it is done and the goal is not reached.
     fn run_samples(
         &mut self,
-        part: &Part<'_>,
+        part: &StepSamples<'_>,
         mut doublings: Option<(&mut Doublings, usize)>,
     ) -> Result<Option<Stop>, RenderError> {
         let samples_per_request = f64::from(self.streams) * part.share;
@@ -260,7 +260,7 @@ impl<'a> Work<'a> {
     fn render_stream(
         &mut self,
         samples: Range<u32>,
-        part: &Part<'_>,
+        part: &StepSamples<'_>,
         doublings: &mut Option<(&mut Doublings, usize)>,
         resume: Option<&BatchState>,
     ) -> Result<Option<Stop>, RenderError> {

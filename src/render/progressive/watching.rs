@@ -3,14 +3,14 @@
 use std::cell::Cell;
 use std::io;
 
-use super::picture::Picture;
+use super::batch_sums::BatchSums;
 use crate::film::{Band, rounded};
 use crate::renderer::sink::Sink;
 use crate::renderer::state::BatchState;
 use crate::renderer::{Batch, Observer};
 
 /// Passes everything on to another sink, and what the observer wants to see to the observer.
-pub struct Watched<'a> {
+pub struct WatchedSink<'a> {
     sink: &'a mut dyn Sink,
     watch: Watch<'a>,
     /// The next state is the observer's alone.
@@ -28,13 +28,13 @@ pub struct Watch<'a> {
     pub region: Option<[u32; 4]>,
 }
 
-impl<'a> Watched<'a> {
+impl<'a> WatchedSink<'a> {
     pub fn new(sink: &'a mut dyn Sink, watch: Watch<'a>) -> Self {
         Self { sink, watch, is_for_observer: Cell::new(false) }
     }
 }
 
-impl Sink for Watched<'_> {
+impl Sink for WatchedSink<'_> {
     fn band(&mut self, band: Band) -> io::Result<()> {
         self.sink.band(band)
     }
@@ -59,7 +59,7 @@ impl Sink for Watched<'_> {
 
 impl Watch<'_> {
     /// Shows what the film has, together with what earlier batches brought.
-    pub fn show(&self, state: &BatchState, before: Option<&Picture>) {
+    pub fn show(&self, state: &BatchState, before: Option<&BatchSums>) {
         let rows = state.rows.clone();
         let band = rows_of(state, self.batch, self.width, before);
         if state.film.is_empty() && before.is_none() {
@@ -75,7 +75,7 @@ impl Watch<'_> {
 }
 
 /// Rows as means. Of pixels that have no samples of the batch, the film may hold something else.
-fn rows_of(state: &BatchState, batch: &Batch<'_>, width: u32, before: Option<&Picture>) -> Band {
+fn rows_of(state: &BatchState, batch: &Batch<'_>, width: u32, before: Option<&BatchSums>) -> Band {
     let first = state.rows.start as usize * width as usize;
     let pixels = state.rows.len() * width as usize;
     let mut band = Band {
@@ -158,7 +158,7 @@ mod tests {
     fn state() -> BatchState {
         let sums = vec![[2.0, 4.0, 6.0, 8.0]; 6];
         let film = FilmState::Double { sums, samples: vec![2; 6] };
-        BatchState { rows: 1..3, done: 0, sweep: 2, reached: 4, film: Arc::new(film), tally: Tally::default() }
+        BatchState { rows: 1..3, done: 0, iteration: 2, reached: 4, film: Arc::new(film), tally: Tally::default() }
     }
 
     #[test]
@@ -171,7 +171,7 @@ mod tests {
             eyes.wants.store(eyes_want, Ordering::Relaxed);
             let (kept, seen) = (checkpoints.states, eyes.seen.lock().expect("one thread").len());
             let watch = Watch { observer: &eyes, batch: &batch, width: 3, region: None };
-            let mut watched = Watched::new(&mut checkpoints, watch);
+            let mut watched = WatchedSink::new(&mut checkpoints, watch);
             if watched.wants_state() {
                 watched.state(state()).expect("nothing is written");
             }
@@ -181,7 +181,7 @@ mod tests {
         // The last state of a render that breaks off comes unasked.
         eyes.wants.store(false, Ordering::Relaxed);
         let watch = Watch { observer: &eyes, batch: &batch, width: 3, region: None };
-        Watched::new(&mut checkpoints, watch).state(state()).expect("nothing is written");
+        WatchedSink::new(&mut checkpoints, watch).state(state()).expect("nothing is written");
         assert_eq!(checkpoints.states, 3);
     }
 
@@ -194,7 +194,7 @@ mod tests {
         assert_eq!((band.first_row, band.rows, band.samples), (1, 2, 0));
         assert_eq!(band.counts, Some(vec![2, 0, 2, 2, 0, 0]), "one takes no part, and two are not reached");
         assert_eq!((band.mean[0], band.mean[1], band.second_moment[0]), ([1.0, 2.0, 3.0], [0.0; 3], 4.0));
-        let before = Picture::with_sums([3, 3], vec![[4.0; 3]; 9], vec![2; 9], vec![2.0; 3]).expect("its size");
+        let before = BatchSums::with_sums([3, 3], vec![[4.0; 3]; 9], vec![2; 9], vec![2.0; 3]).expect("its size");
         let band = rows_of(&state(), &batch, 3, Some(&before));
         assert_eq!((band.mean[0], band.mean[1]), ([1.5, 2.0, 2.5], [2.0; 3]));
         assert_eq!(band.counts, Some(vec![4, 2, 4, 4, 2, 2]));

@@ -41,12 +41,12 @@ pub struct Arrival {
 struct Learner<'a> {
     arrivals: &'a [Arrival],
     /// The boxes of the grid that they are in, where they are in one.
-    places: Vec<Place>,
+    places: Vec<BoxIndex>,
     most_arrivals: usize,
 }
 
 /// A box by its numbers along the axes, which are below [`MOST_BOXES`].
-type Place = [u16; 3];
+type BoxIndex = [u16; 3];
 
 /// Boxes of which the same is known.
 struct Cell {
@@ -65,12 +65,12 @@ pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
         let place = grid.place(arrival.position.as_dvec3())?;
         Some((facing(arrival.normal.as_dvec3()) as usize, place.map(|number| number as u16)))
     };
-    let placed: Vec<Option<(usize, Place)>> = arrivals.par_iter().map(place).collect();
+    let placed: Vec<Option<(usize, BoxIndex)>> = arrivals.par_iter().map(place).collect();
     let mut of_facings: [Vec<u32>; FACINGS] = Default::default();
     for (number, facing) in placed.iter().enumerate().filter_map(|(number, placed)| Some((number, placed.as_ref()?.0))) {
         of_facings[facing].push(number as u32);
     }
-    let places = placed.into_par_iter().map(|placed| placed.map_or_else(Place::default, |(_, place)| place)).collect();
+    let places = placed.into_par_iter().map(|placed| placed.map_or_else(BoxIndex::default, |(_, place)| place)).collect();
     let learner = Learner { arrivals, places, most_arrivals: MOST_ARRIVALS.max(2 * arrivals.len() / MOST_CELLS) };
     let of_facing = |(facing, members): (usize, Vec<u32>)| learner.cells(facing as u32, grid.region(), &members);
     let cells: Vec<Cell> = of_facings.into_par_iter().enumerate().flat_map_iter(of_facing).collect();

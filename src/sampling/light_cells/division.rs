@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::light_sample_context::LightSampleContext;
 use super::list::{Reaching, slots};
-use super::lit_point::LitPoint;
 use super::table::LightCells;
 use crate::sampling::cell_grid::{CellGrid, FACINGS, Region};
 
@@ -28,7 +28,7 @@ pub struct Division {
 
 impl Division {
     /// Divides some points; equal points in equal order give equal divisions.
-    pub fn new(points: &[LitPoint]) -> Self {
+    pub fn new(points: &[LightSampleContext]) -> Self {
         let grid = CellGrid::around(points.par_iter().map(|point| point.point), MOST_BOXES);
         let mut division = Self { grid, index: grid.empty_index(), cells: Vec::new() };
         let mut of_facings: [Vec<u32>; FACINGS] = Default::default();
@@ -50,7 +50,7 @@ impl Division {
     }
 
     /// Cuts boxes of a facing in two, across where they are longest, for as long as they hold enough points; what is left are cells.
-    fn divide(&mut self, points: &[LitPoint], most_points: usize, (facing, region): (u32, Region), members: Vec<u32>) {
+    fn divide(&mut self, points: &[LightSampleContext], most_points: usize, (facing, region): (u32, Region), members: Vec<u32>) {
         if members.is_empty() {
             return;
         }

@@ -1,5 +1,5 @@
 //! Which lights reach which part of a scene, as a table that both devices read: next event estimation chooses by it where a scene has lights
-//! that do not reach most of its surfaces, or are much stronger there than elsewhere: many lamps behind walls, or a lamp and a window.
+//! that do not reach most of its surfaces, or are much stronger there than elsewhere: many lights behind walls, or a light and a window.
 //!
 //! Space is cut into cells, by position and by which way a surface faces. Each cell has a list of slots, every slot as likely as any other, that
 //! name the lights found to reach it ([`crate::learn`]): a light that brings more has more of them. A fixed share of the
@@ -8,15 +8,15 @@
 //! light only where a point lies on the border of two cells. `shaders/shading/light/choice/cells.wgsl` is the device's half.
 
 mod division;
+mod light_sample_context;
 mod list;
-mod lit_point;
 pub mod table;
 
 use std::sync::Arc;
 
 pub use division::Division;
+pub use light_sample_context::LightSampleContext;
 pub use list::Reaching;
-pub use lit_point::LitPoint;
 pub use table::{LightCell, LightCells};
 
 use super::alias::AliasTable;
@@ -45,7 +45,7 @@ impl LightCellChoice {
     }
 
     /// The light that 32 random bits choose at a point, and the probability of that.
-    pub fn choose(&self, from: LitPoint, bits: u32) -> (usize, f64) {
+    pub fn choose(&self, from: LightSampleContext, bits: u32) -> (usize, f64) {
         let cell = self.cells.cell(from);
         let light = match cell.map(|cell| cell.choose(bits)) {
             Some(Ok(light)) => light as usize,
@@ -61,7 +61,7 @@ impl LightCellChoice {
     }
 
     /// The probability with which [`LightCellChoice::choose`] chooses a light at a point.
-    pub fn probability(&self, from: LitPoint, light: usize) -> f64 {
+    pub fn probability(&self, from: LightSampleContext, light: usize) -> f64 {
         self.probability_in(self.cells.cell(from), light)
     }
 }

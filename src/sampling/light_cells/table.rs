@@ -5,7 +5,7 @@
 //! [`LIGHT_CELL_SLOTS`] for each cell, by the number of the light that they name, which is in the lower bits; in the upper ones stands how
 //! many slots of the cell name it.
 
-use super::lit_point::LitPoint;
+use super::light_sample_context::LightSampleContext;
 use crate::sampling::cell_grid::{CellGrid, GRID_HEADER_WORDS};
 
 /// Random bits that say by which of all units a light is chosen: slots of a cell, and those that leave the choice to power.
@@ -65,7 +65,7 @@ impl LightCells {
     }
 
     /// The cell of a point on a surface; None where nothing is known there.
-    pub fn cell(&self, from: LitPoint) -> Option<LightCell<'_>> {
+    pub fn cell(&self, from: LightSampleContext) -> Option<LightCell<'_>> {
         let index = CellGrid::of_table(&self.words).index_of(from.facing, from.point)?;
         let number = self.words[HEADER + index];
         let start = self.first_cell() + SLOTS * (number.checked_sub(1)? as usize);

@@ -14,11 +14,11 @@ fn number(key: u32, dimension: u32) -> f64 {
 }
 
 /// Points on the floor and the ceiling of a room of 10 × 3 × 10.
-fn points() -> Vec<LitPoint> {
+fn points() -> Vec<LightSampleContext> {
     let point = |key: u32| {
         let is_floor = key.is_multiple_of(2);
         let at = DVec3::new(10.0 * number(key, 0), if is_floor { 0.0 } else { 3.0 }, 10.0 * number(key, 1));
-        LitPoint::new(at, if is_floor { DVec3::Y } else { DVec3::NEG_Y })
+        LightSampleContext::new(at, if is_floor { DVec3::Y } else { DVec3::NEG_Y })
     };
     (0..2000).map(point).collect()
 }
@@ -39,9 +39,9 @@ fn choice() -> LightCellChoice {
 }
 
 /// Points that were learned from, and others far away and outside.
-fn asked() -> impl Iterator<Item = LitPoint> {
+fn asked() -> impl Iterator<Item = LightSampleContext> {
     let others = [DVec3::new(1e4, 1.0, 0.0), DVec3::splat(-1e9), DVec3::new(5.0, 1.5, 5.0)];
-    points().into_iter().step_by(50).chain(others.map(|point| LitPoint::new(point, DVec3::Y)))
+    points().into_iter().step_by(50).chain(others.map(|point| LightSampleContext::new(point, DVec3::Y)))
 }
 
 #[test]

@@ -116,24 +116,24 @@ fn no_light_that_reaches_a_point_is_left_out() {
     assert!(reached.iter().all(|count| *count > 1000), "{reached:?}");
 }
 
-/// The nearest of equal lamps, the one of two that faces the point, and the stronger one.
+/// The nearest of equal emitters, the one of two that faces the point, and the stronger one.
 #[test]
 fn near_strong_lights_that_face_a_point_come_first() {
-    let lamp = |x: f64, normal: DVec3, power: f64| {
+    let emitter = |x: f64, normal: DVec3, power: f64| {
         let corner = DVec3::new(x, 2.0, 0.0);
         Emitter::surface([corner, corner + DVec3::new(0.1, 0.0, 0.1)], Some(normal), false, power)
     };
-    let of = |lamps: &[Emitter], point: DVec3| {
-        let tree = LightTree::new(lamps, AliasTable::new(&[]));
-        (0..lamps.len()).map(|light| tree.probability(point, light)).collect::<Vec<f64>>()
+    let of = |emitters: &[Emitter], point: DVec3| {
+        let tree = LightTree::new(emitters, AliasTable::new(&[]));
+        (0..emitters.len()).map(|light| tree.probability(point, light)).collect::<Vec<f64>>()
     };
-    let row: Vec<Emitter> = (0..50).map(|index| lamp(f64::from(index), DVec3::NEG_Y, 1.0)).collect();
+    let row: Vec<Emitter> = (0..50).map(|index| emitter(f64::from(index), DVec3::NEG_Y, 1.0)).collect();
     let nearest = of(&row, DVec3::new(20.05, 1.0, 0.05));
     assert!(nearest[20] > 0.15 && nearest[45] < 0.01, "{nearest:?}");
     let below = DVec3::new(0.55, 0.0, 0.0);
-    let facing = of(&[lamp(0.0, DVec3::NEG_Y, 1.0), lamp(1.0, DVec3::Y, 1.0)], below);
+    let facing = of(&[emitter(0.0, DVec3::NEG_Y, 1.0), emitter(1.0, DVec3::Y, 1.0)], below);
     assert_eq!(facing[1], 0.0);
-    let stronger = of(&[lamp(0.0, DVec3::NEG_Y, 1.0), lamp(1.0, DVec3::NEG_Y, 3.0)], below);
+    let stronger = of(&[emitter(0.0, DVec3::NEG_Y, 1.0), emitter(1.0, DVec3::NEG_Y, 3.0)], below);
     assert!((stronger[1] - 0.75).abs() < 1e-3, "{stronger:?}");
 }
 

@@ -3,8 +3,8 @@
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::scene::{BlendMode, BlendWeight, Estimator, MaterialKind, Scene};
 
-use super::materials::{of_cell, stage, wall};
-use super::wall::Wall;
+use super::materials::{grid, of_cell, stage};
+use super::test_grid::TestGrid;
 use super::{DEVICE, assert_agrees, compare};
 use crate::common::effort::in_full;
 
@@ -72,12 +72,12 @@ fn blends() -> Vec<(String, String)> {
     blends.map(|(name, material)| (name.to_owned(), material)).into()
 }
 
-/// Every weight and every kind of blend, on one wall.
-fn wall_of_blends() -> (Vec<(String, String)>, Wall) {
+/// Every weight and every kind of blend, on one grid.
+fn grid_of_blends() -> (Vec<(String, String)>, TestGrid) {
     let weights = BLEND_WEIGHTS.iter().map(|(name, weight)| ((*name).to_owned(), blend("red", "mirror", weight)));
     let materials: Vec<_> = weights.chain(blends()).collect();
-    let wall = wall(6, &materials);
-    (materials, wall)
+    let grid = grid(6, &materials);
+    (materials, grid)
 }
 
 fn ways() -> [PlanOptions; 2] {
@@ -87,11 +87,11 @@ fn ways() -> [PlanOptions; 2] {
 
 #[test]
 fn every_blend_agrees_for_both_ways_to_blend() {
-    let (_, wall) = wall_of_blends();
+    let (_, grid) = grid_of_blends();
     for (index, mode, estimator) in
         [(0, BlendMode::Mixture, Estimator::Mis), (1, BlendMode::Pick, Estimator::Nee), (0, BlendMode::Mixture, Estimator::Bsdf)]
     {
-        wall.assert_agrees(&format!("blends, {mode:?}, {estimator:?}"), &ways()[index], |scene| {
+        grid.assert_agrees(&format!("blends, {mode:?}, {estimator:?}"), &ways()[index], |scene| {
             (scene.render.blend, scene.render.estimator) = (mode, estimator);
         });
     }
@@ -117,10 +117,10 @@ fn every_weight_and_kind_of_blend_agrees_alone() {
     }
 }
 
-/// The control of the wall: of one blend, the weight is off by a hundredth.
+/// The control of the grid: of one blend, the weight is off by a hundredth.
 #[test]
 fn another_blend_on_the_wall_is_noticed() {
-    let (materials, wall) = wall_of_blends();
+    let (materials, grid) = grid_of_blends();
     let off = |scene: &mut Scene| {
         let blend = of_cell(scene, &materials, "constant");
         let MaterialKind::Blend { weight: BlendWeight::Constant { value }, .. } = &mut scene.materials[blend].kind else {
@@ -128,7 +128,7 @@ fn another_blend_on_the_wall_is_noticed() {
         };
         *value += 0.01;
     };
-    wall.assert_notices(&[("a weight off by a hundredth", &off)]);
+    grid.assert_notices(&[("a weight off by a hundredth", &off)]);
 }
 
 const AMBER: &str = "type = \"principled\"\nmetallic = 0\nroughness = 0.5\ntransmission = 1\nattenuation_color = [0.9, 0.5, 0.1]\nattenuation_distance = 0.6";

@@ -178,14 +178,17 @@ fn instances_agree_path_by_path() {
         ("smooth, textured, bent", group("checked", true) + &instances(PLACES)),
         ("flat glass", group("glass", false) + &instances(PLACES)),
         ("blend", group("two", true) + &instances(PLACES)),
-        ("veils", group("veil", true) + &instances(PLACES)),
+        ("translucent surfaces", group("veil", true) + &instances(PLACES)),
         ("holes of a material of their own", group("white", true) + &instances(&format!("{PLACES}material = \"holes\"\n"))),
         ("moving", group("checked", true) + &instances(&format!("{PLACES}{motion}"))),
-        ("moving veils, at rest beside", group("veil", false) + &instances(&format!("{PLACES}{motion}")) + &instances("")),
+        (
+            "moving translucent surfaces, at rest beside",
+            group("veil", false) + &instances(&format!("{PLACES}{motion}")) + &instances(""),
+        ),
     ];
     // The others' parts are in these, in `instances_look_like_copies` and in the built-in scenes `model-town` and `grove`.
     let everywhere = in_full("each kind of instance alone");
-    let enough = ["flat glass", "holes of a material of their own", "moving veils, at rest beside"];
+    let enough = ["flat glass", "holes of a material of their own", "moving translucent surfaces, at rest beside"];
     for (index, (name, lines)) in cases.iter().enumerate().filter(|(_, (name, _))| everywhere || enough.contains(name)) {
         assert_agrees(name, &stage(lines), &ways()[index % 2]);
     }
@@ -271,7 +274,7 @@ fn what_moving_instances_hold_moves_with_them() {
 #[test]
 fn lone_lanes_agree() {
     let Some(device) = with_limits(|limits| limits.subgroup_size = None) else { return };
-    let everywhere = in_full("lone lanes at veils");
+    let everywhere = in_full("lone lanes at translucent surfaces");
     for material in ["checked", "veil"].into_iter().take(if everywhere { 2 } else { 1 }) {
         let scene = stage(&(group(material, true) + &instances(PLACES)));
         assert_agrees_on(&device, &format!("{material}, lane by lane"), &scene, &ways()[0]);

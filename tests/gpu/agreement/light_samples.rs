@@ -7,7 +7,7 @@ use gpt::scene::{Estimator, SamplerKind};
 use gpt::verify;
 
 use crate::common::effort::in_full;
-use crate::common::veils::veils;
+use crate::common::translucent_surfaces::translucent_surfaces;
 
 use super::{DEVICE, assert_agrees, assert_agrees_on, small, with_limits};
 
@@ -38,15 +38,19 @@ fn several_light_samples_agree() {
 /// Which surfaces take several goes by the depth of the path, of which vertices at null surfaces are no part.
 #[test]
 fn several_light_samples_agree_where_rays_pass_through_surfaces() {
-    let mut scene = veils();
+    let mut scene = translucent_surfaces();
     scene.render.spp = 4;
-    let everywhere = in_full("light samples behind veils at one and at two surfaces by either way to run");
+    let everywhere = in_full("light samples behind translucent surfaces at one and at two surfaces by either way to run");
     for (index, (count, depth)) in [(4, 1), (3, 2)].into_iter().enumerate() {
         (scene.render.light_samples, scene.render.light_samples_depth) = (count.into(), depth);
         let both = [StageMode::Fused, StageMode::Wavefront];
         for (_, stages) in both.into_iter().enumerate().filter(|(other, _)| everywhere || *other == index) {
             let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
-            assert_agrees(&format!("veils, {count} light samples at {depth} surfaces, {stages:?}"), &scene, &options);
+            assert_agrees(
+                &format!("translucent surfaces, {count} light samples at {depth} surfaces, {stages:?}"),
+                &scene,
+                &options,
+            );
         }
     }
 }

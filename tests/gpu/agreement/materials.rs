@@ -9,7 +9,7 @@ use gpt::scene::{Geometry, MaterialKind, Rectangle, Relief, Scene};
 use gpt::verify::path::compare_path;
 
 use super::lights::compare_unequal;
-use super::wall::Wall;
+use super::test_grid::TestGrid;
 use super::{DEVICE, assert_agrees};
 
 /// A sphere and a smooth, textured tetrahedron of the material `m` on a floor, under a lamp, a point light and an environment.
@@ -199,11 +199,11 @@ fn tables() -> String {
     STAGE[start..end].to_owned() + &TEXTURES.map(|(_, text)| text).concat()
 }
 
-/// A wall of materials: each on a sphere, or a rectangle where it bends normals, and on a smooth, textured tetrahedron.
-pub fn wall(columns: usize, materials: &[(String, String)]) -> Wall {
+/// A grid of materials: each on a sphere, or a rectangle where it bends normals, and on a smooth, textured tetrahedron.
+pub fn grid(columns: usize, materials: &[(String, String)]) -> TestGrid {
     let tetrahedron = &STAGE[STAGE.rfind("[[shape]]").expect("there are shapes")..];
     let names = materials.iter().map(|(name, _)| name.clone()).collect();
-    Wall::new(columns, &tables(), names, |index, [x, y]| {
+    TestGrid::new(columns, &tables(), names, |index, [x, y]| {
         let (name, material) = &materials[index];
         let first = if RELIEFS.iter().any(|(relief, _)| relief == name) {
             format!(
@@ -233,8 +233,8 @@ fn owned(materials: &[(&str, &str)]) -> Vec<(String, String)> {
 }
 
 /// The index of the material of a cell.
-pub fn of_cell(scene: &Scene, wall: &[(String, String)], name: &str) -> usize {
-    let index = wall.iter().position(|(other, _)| other == name).expect("the wall has it");
+pub fn of_cell(scene: &Scene, grid: &[(String, String)], name: &str) -> usize {
+    let index = grid.iter().position(|(other, _)| other == name).expect("the grid has it");
     let name = format!("m{index}");
     scene.materials.iter().position(|material| material.name == name).expect("it is a material")
 }
@@ -243,7 +243,7 @@ pub fn of_cell(scene: &Scene, wall: &[(String, String)], name: &str) -> usize {
 #[test]
 fn every_lobe_and_texture_agrees() {
     let materials = [owned(LOBES), owned(RELIEFS)].concat();
-    wall(8, &materials).assert_agrees("lobes and textures", &PlanOptions::default(), |_| {});
+    grid(8, &materials).assert_agrees("lobes and textures", &PlanOptions::default(), |_| {});
 }
 
 #[test]
@@ -257,14 +257,14 @@ fn every_lobe_and_texture_agrees_alone() {
     }
 }
 
-/// The controls of the wall: one of its materials is a little different.
+/// The controls of the grid: one of its materials is a little different.
 #[test]
 fn another_material_on_the_wall_is_noticed() {
     let materials = [owned(LOBES), owned(RELIEFS)].concat();
-    let wall = wall(8, &materials);
+    let grid = grid(8, &materials);
     let texture = |scene: &Scene, name: &str| {
         let normal_map = scene.materials[of_cell(scene, &materials, name)].normal_map;
-        normal_map.expect("normals are bent by it")
+        normal_map.expect("normals are perturbed by it")
     };
     let heights = |scene: &mut Scene| {
         let map = texture(scene, "heights of a picture");
@@ -273,11 +273,11 @@ fn another_material_on_the_wall_is_noticed() {
     };
     let shadows = |scene: &mut Scene| {
         let map = texture(scene, "shadowed normals");
-        scene.textures[map].shadows_bent_normals = false;
+        scene.textures[map].shadows_perturbed_normals = false;
     };
     let mirrors = |scene: &mut Scene| {
         let map = texture(scene, "mirrored normals");
-        scene.textures[map].mirrors_bent_normals = false;
+        scene.textures[map].mirrors_perturbed_normals = false;
     };
     let coat = |scene: &mut Scene| {
         let coated = of_cell(scene, &materials, "bumpy coat");
@@ -289,7 +289,7 @@ fn another_material_on_the_wall_is_noticed() {
         let MaterialKind::Principled(brushed) = &mut scene.materials[brushed].kind else { panic!("it is principled") };
         brushed.anisotropy_direction = None;
     };
-    wall.assert_notices(&[
+    grid.assert_notices(&[
         ("heights a fifth higher", &heights),
         ("normals without shadows", &shadows),
         ("normals without mirrors", &mirrors),
@@ -319,20 +319,20 @@ fn maps_of_heights_and_scaled_normals_agree() {
 
 /// The control: with the surface's own in place of normals that look away, the picture is another one.
 #[test]
-#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
-fn missing_mirrors_of_bent_normals_are_noticed() {
+#[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
+fn missing_mirrors_of_perturbed_normals_are_noticed() {
     let theirs = with_edges(
         "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
     );
     let mut ours = theirs.clone();
-    ours.textures.iter_mut().for_each(|texture| texture.mirrors_bent_normals = false);
+    ours.textures.iter_mut().for_each(|texture| texture.mirrors_perturbed_normals = false);
     let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
     assert!(!verdict.agrees, "{verdict:#?}");
 }
 
 /// The control: a coat without its map, and one that lies as the base below it, make another picture.
 #[test]
-#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
+#[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
 fn missing_normals_of_coats_are_noticed() {
     let coated =
         "type = \"principled\"\nbase_color = 0.1\nmetallic = 0\nroughness = 0.5\nclearcoat = 1\nclearcoat_roughness = 0.3\n";
@@ -347,7 +347,7 @@ fn missing_normals_of_coats_are_noticed() {
 
 /// The control: with the direction of u in place of a texture's, the picture is another one.
 #[test]
-#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
+#[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
 fn missing_directions_of_anisotropy_are_noticed() {
     let brushed = "type = \"principled\"\nroughness = 0.4\nanisotropy = 0.9\n";
     let theirs = stage(&format!("{brushed}anisotropy_direction = \"bumps\""));
@@ -357,19 +357,19 @@ fn missing_directions_of_anisotropy_are_noticed() {
 
 /// The control: without the shadow of the surface, the picture is another one.
 #[test]
-#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
-fn missing_shadows_of_bent_normals_are_noticed() {
+#[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
+fn missing_shadows_of_perturbed_normals_are_noticed() {
     let theirs =
         with_edges("type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true");
     let mut ours = theirs.clone();
-    ours.textures.iter_mut().for_each(|texture| texture.shadows_bent_normals = false);
+    ours.textures.iter_mut().for_each(|texture| texture.shadows_perturbed_normals = false);
     let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
     assert!(!verdict.agrees, "{verdict:#?}");
 }
 
 /// The control: a tenth more height is noticed.
 #[test]
-#[ignore = "long: bent normals, coats, brushes and heights that are noticed alone, not on a wall"]
+#[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
 fn other_heights_are_noticed() {
     let theirs = with_edges("type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"bumps\"\nbump_scale = 0.3");
     let mut ours = theirs.clone();

@@ -12,8 +12,8 @@ mod motion;
 mod screens;
 mod shapes;
 mod strategies;
+mod test_grid;
 mod textures;
-mod wall;
 
 use crate::common::device::{DEVICE, with_limits};
 use crate::common::effort::in_full;

@@ -5,7 +5,7 @@ use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::scene::{Estimator, Scene};
 
 use super::materials::BUMPS;
-use super::wall::{Change, Wall};
+use super::test_grid::{Change, TestGrid};
 use super::{DEVICE, assert_agrees};
 use crate::common::effort::in_full;
 
@@ -66,7 +66,7 @@ const ONE_SIDED: &str = "type = \"emissive\"\nradiance = [1, 2, 3]";
 const PATTERNED: &str = "type = \"emissive\"\nradiance = { texture = \"checks\" }\ntwo_sided = true";
 
 /// A shape in a part.
-struct Part {
+struct ShapeCase {
     name: String,
     shape: String,
     placed: String,
@@ -74,12 +74,12 @@ struct Part {
     is_infinite: bool,
 }
 
-impl Part {
+impl ShapeCase {
     fn scene(&self) -> Scene {
         stage(&self.shape, &self.placed, self.material).unwrap_or_else(|error| panic!("{}: {error}", self.name))
     }
 
-    /// Small, in a cell of a wall.
+    /// Small, in a cell of a grid.
     fn in_cell(&self, index: usize, [x, y]: [f64; 2]) -> String {
         let placed = self.placed.trim_end().trim_end_matches(']');
         format!(
@@ -90,14 +90,14 @@ impl Part {
 }
 
 /// Every shape in all its parts; those that cannot be in one are told from the rest by what they are.
-fn parts() -> Vec<Part> {
+fn parts() -> Vec<ShapeCase> {
     let mut parts = Vec::new();
     for (name, shape) in load::file::shape_examples() {
         let plain = stage(&shape, TURNED, PLAIN).unwrap_or_else(|error| panic!("{error}"));
         let geometry = plain.shapes[1].geometry.clone();
         let mut add = |part: &str, placed: &str, material: &'static str| {
             let (shape, placed, is_infinite) = (shape.clone(), placed.to_owned(), geometry.is_infinite());
-            parts.push(Part { name: format!("{name}, {part}"), shape, placed, material, is_infinite });
+            parts.push(ShapeCase { name: format!("{name}, {part}"), shape, placed, material, is_infinite });
         };
         add("turned", TURNED, PLAIN);
         add("glowing", TURNED, GLOWING);
@@ -116,9 +116,9 @@ fn parts() -> Vec<Part> {
     parts
 }
 
-/// All that a wall can hold: what is infinite would fill it, and portals would be what all its light comes through.
-fn wall() -> (Vec<Part>, Wall) {
-    let parts: Vec<Part> = parts().into_iter().filter(|part| !part.is_infinite && !part.name.ends_with("portal")).collect();
+/// All that a grid can hold: what is infinite would fill it, and portals would be what all its light comes through.
+fn grid() -> (Vec<ShapeCase>, TestGrid) {
+    let parts: Vec<ShapeCase> = parts().into_iter().filter(|part| !part.is_infinite && !part.name.ends_with("portal")).collect();
     let shared = STAGE.find("[[texture]]").expect("there are textures")..STAGE.rfind("[[shape]]").expect("there is a floor");
     let tables = format!(
         "{}{}[[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = [8, 7, 6]\n",
@@ -126,19 +126,19 @@ fn wall() -> (Vec<Part>, Wall) {
         &STAGE[STAGE.find("[[light]]").expect("there is a sky")..]
     );
     let names = parts.iter().map(|part| part.name.clone()).collect();
-    let wall = Wall::new(8, &tables, names, |index, place| parts[index].in_cell(index, place));
-    (parts, wall)
+    let grid = TestGrid::new(8, &tables, names, |index, place| parts[index].in_cell(index, place));
+    (parts, grid)
 }
 
 #[test]
 fn every_shape_agrees_in_every_part() {
     let by_wavefront =
         PlanOptions { traversal: TraversalChoice::Bvh, stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
-    let (_, wall) = wall();
-    wall.assert_agrees("shapes", &PlanOptions::default(), |_| {});
-    wall.assert_agrees("shapes, wavefront", &by_wavefront, |scene| scene.render.estimator = Estimator::Nee);
+    let (_, grid) = grid();
+    grid.assert_agrees("shapes", &PlanOptions::default(), |_| {});
+    grid.assert_agrees("shapes, wavefront", &by_wavefront, |scene| scene.render.estimator = Estimator::Nee);
     let everywhere = in_full("each part of each shape alone");
-    let alone = |part: &Part| part.is_infinite && (part.name.ends_with("turned") || part.name.ends_with("glowing"));
+    let alone = |part: &ShapeCase| part.is_infinite && (part.name.ends_with("turned") || part.name.ends_with("glowing"));
     for (index, part) in parts().into_iter().filter(|part| everywhere || alone(part)).enumerate() {
         let (name, mut scene) = (&part.name, part.scene());
         if index % 2 == 0 {
@@ -150,15 +150,15 @@ fn every_shape_agrees_in_every_part() {
     }
 }
 
-/// The comparison notices a shape that is a hundredth larger: each of those on the wall, and infinite ones by
+/// The comparison notices a shape that is a hundredth larger: each of those on the grid, and infinite ones by
 /// themselves.
 #[test]
 fn a_shape_off_by_a_hundredth_is_noticed() {
     let step = || gpt::scene::TransformStep::Scale(glam::DVec3::splat(1.01));
-    let (parts, wall) = wall();
-    // The first two shapes are the floor behind the wall and its lamp.
+    let (parts, grid) = grid();
+    // The first two shapes are the floor behind the grid and its lamp.
     let shape_of = |index: usize| index + 2;
-    assert_eq!(wall.scene.shapes.len(), shape_of(parts.len()));
+    assert_eq!(grid.scene.shapes.len(), shape_of(parts.len()));
     let turned: Vec<usize> = (0..parts.len()).filter(|index| parts[*index].name.ends_with("turned")).collect();
     assert!(turned.len() > 5);
     let larger: Vec<_> = turned
@@ -167,7 +167,7 @@ fn a_shape_off_by_a_hundredth_is_noticed() {
         .collect();
     let changes: Vec<Change<'_>> =
         turned.iter().zip(&larger).map(|(&index, larger)| (parts[index].name.as_str(), larger as &dyn Fn(&mut Scene))).collect();
-    wall.assert_notices(&changes);
+    grid.assert_notices(&changes);
     let everywhere = in_full("each shape alone that is a hundredth larger");
     let Some(device) = DEVICE.as_ref() else { return };
     for part in self::parts().into_iter().filter(|part| part.name.ends_with("turned") && (everywhere || part.is_infinite)) {

@@ -64,8 +64,8 @@ fn write_images(folder: &Path) {
     }
 }
 
-/// A wall of squares, each of a material.
-fn wall(materials: &[(&str, String)], folder: &Path) -> Scene {
+/// A grid of squares, each of a material.
+fn grid(materials: &[(&str, String)], folder: &Path) -> Scene {
     let mut text = HEAD.to_owned();
     for (name, file, keys) in TEXTURES {
         text += &format!("[[texture]]\nname = \"{name}\"\ntype = \"image\"\nfile = \"{file}\"\n{keys}\n");
@@ -134,7 +134,7 @@ fn everything(folder: &Path) -> Scene {
          weight = { type = \"texture\", texture = \"product\", channel = \"a\" }"
             .into(),
     ));
-    wall(&materials, folder)
+    grid(&materials, folder)
 }
 
 #[test]
@@ -204,7 +204,7 @@ fn texels_in_chunks_give_the_same_picture() {
     let scene = {
         write_images(folder.path());
         let colors = |name: &'static str| (name, format!("type = \"diffuse\"\nreflectance = {{ texture = \"{name}\" }}"));
-        wall(&["bytes", "codes", "half", "float", "turned"].map(colors), folder.path())
+        grid(&["bytes", "codes", "half", "float", "turned"].map(colors), folder.path())
     };
     let options = PlanOptions { stages: Some(StageMode::Fused), ..PlanOptions::default() };
     let (whole, plan) = pixel_bits(device, &scene, &options, 0..4);

@@ -72,10 +72,10 @@ fn a_light_behind_a_pass_surface_looks_the_same() {
     let mut scene = looking_down_z();
     let light = emissive(&mut scene, Spectrum::WHITE);
     let nothing = material(&mut scene, MaterialKind::Pass, None);
-    let [geometry, veil] = [1.0, 0.5].map(|radius| sphere(-DVec3::Z * 0.5, 2.0 * radius));
+    let [geometry, translucent] = [1.0, 0.5].map(|radius| sphere(-DVec3::Z * 0.5, 2.0 * radius));
     shape(&mut scene, geometry, light);
     shape(&mut scene, Geometry::Plane(Plane { point: DVec3::Z * 2.0, normal: (DVec3::Y + DVec3::Z).normalize() }), nothing);
-    shape(&mut scene, veil, nothing);
+    shape(&mut scene, translucent, nothing);
     assert_every_pixel("pass", &scene, Spectrum::WHITE);
 }
 

@@ -87,7 +87,7 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
         let u = 0.5 + side * place;
         let texel = Spectrum::new(1.0 - u, u, 0.5);
         let position = to_light * 2.0;
-        let picture = Some(ThrownPicture { texture: 0, up });
+        let picture = Some(ProjectedTexture { texture: 0, up });
         let (angle_degrees, falloff_degrees, curve) = (40.0, 40.0, FalloffCurve::Linear);
         scene.lights.push(Light::Spot(SpotLight {
             position,

@@ -16,7 +16,7 @@ pub fn all() -> Vec<Case> {
     blends_by_angle(&mut cases);
     blends_with_delta_lobes(&mut cases);
     furnaces_of_blends(&mut cases);
-    veils(&mut cases);
+    translucent_surfaces(&mut cases);
     blended_lights(&mut cases);
     volumes(&mut cases);
     nested_media(&mut cases);
@@ -357,19 +357,19 @@ fn furnaces_of_blends(cases: &mut Vec<Case>) {
 }
 
 /// Blends with `pass`: the environment shows through, and light in front of it adds to it.
-fn veils(cases: &mut Vec<Case>) {
+fn translucent_surfaces(cases: &mut Vec<Case>) {
     let pass = |scene: &mut Scene| material(scene, MaterialKind::Pass, None);
     let mut scene = spot(256, 40.0);
     let (nothing, matte) = (pass(&mut scene), diffuse(&mut scene, 0.6));
-    let veil = blend(&mut scene, nothing, matte, half());
-    floor_at_spot(&mut scene, veil);
-    push_modes(cases, "veil", &scene, Spectrum::grey(0.5 + 0.5 * 0.6), &ALL);
+    let translucent = blend(&mut scene, nothing, matte, half());
+    floor_at_spot(&mut scene, translucent);
+    push_modes(cases, "translucent surface", &scene, Spectrum::grey(0.5 + 0.5 * 0.6), &ALL);
 
     let mut scene = spot(256, 40.0);
     let (light, nothing) = (emissive(&mut scene, Spectrum::new(2.0, 1.0, 0.5)), pass(&mut scene));
     let flame = blend(&mut scene, light, nothing, BlendWeight::Constant { value: 0.3 });
     floor_at_spot(&mut scene, flame);
-    push_modes(cases, "glowing veil", &scene, Spectrum::new(2.0, 1.0, 0.5) * 0.3 + Spectrum::grey(0.7), &ALL);
+    push_modes(cases, "glowing translucent surface", &scene, Spectrum::new(2.0, 1.0, 0.5) * 0.3 + Spectrum::grey(0.7), &ALL);
 
     // Two walls of a hollow ball, each letting nine tenths through, end no edge: the light behind is seen directly.
     let mut scene = spot(256, 40.0);
@@ -381,7 +381,7 @@ fn veils(cases: &mut Vec<Case>) {
     let light = emissive(&mut scene, Spectrum::grey(3.0));
     shape(&mut scene, sphere(DVec3::ZERO, 100.0), light);
     scene.materials[light].emission = Some(Emission { radiance: ColorInput::grey(3.0), two_sided: true });
-    push_modes(cases, "light behind two veils", &scene, Spectrum::grey(0.81 * 3.0), &ALL);
+    push_modes(cases, "light behind two translucent surfaces", &scene, Spectrum::grey(0.81 * 3.0), &ALL);
 }
 
 /// The sphere light over a floor, its emission weighted by a blend.

@@ -104,23 +104,23 @@ pub fn remembered() -> [(&'static str, Features); 5] {
         lamp_shape: LAMP_SHAPES[0],
         settings: SETTINGS[0],
     };
-    let bent_veil = Features {
+    let perturbed_sheet = Features {
         body: "type = \"diffuse\", reflectance = 0.05",
         relief: ", bump_map = \"hills\", bump_scale = 30, normal_shadowing = true",
         shape: Shape::Cover,
         lamp_shape: SKY,
         ..plain
     };
-    let veiled_lamp = Features { lamp: LAMPS[1], shape: Shape::Sheet, ..plain };
+    let translucent_lamp = Features { lamp: LAMPS[1], shape: Shape::Sheet, ..plain };
     [
-        ("a veiled tube has two walls in the way of a shadow ray", plain),
+        ("a translucent tube has two walls in the way of a shadow ray", plain),
         ("a moving one as well", Features { motion: MOTIONS[2], ..plain }),
-        ("normals bent on a veil do not dim light that comes through it", bent_veil),
+        ("normals perturbed on a translucent surface do not dim light that comes through it", perturbed_sheet),
         (
-            "a veiled ball shows its far side, which light samples do not reach",
-            Features { lamp_shape: LAMP_SHAPES[1], ..veiled_lamp },
+            "a translucent ball shows its far side, which light samples do not reach",
+            Features { lamp_shape: LAMP_SHAPES[1], ..translucent_lamp },
         ),
-        ("a veiled tube lights through its own wall", Features { lamp_shape: LAMP_SHAPES[2], ..veiled_lamp }),
+        ("a translucent tube lights through its own wall", Features { lamp_shape: LAMP_SHAPES[2], ..translucent_lamp }),
     ]
 }
 

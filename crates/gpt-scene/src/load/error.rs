@@ -7,7 +7,7 @@ use std::path::Path;
 use super::excerpt::Excerpt;
 use super::printable::{printable, short};
 
-/// Most mistakes of a file that are told at once.
+/// Most mistakes of a file that are reported at once.
 pub(crate) const MOST_ERRORS: usize = 20;
 
 /// One mistake in a scene file or in a file it names. Displays as `file:line:column: key: message`.
@@ -20,12 +20,12 @@ struct Details {
     message: String,
     help: Option<String>,
     key: Option<String>,
-    place: Option<Place>,
+    place: Option<TextPosition>,
     others: Vec<SceneError>,
 }
 
 #[derive(Debug, Clone)]
-struct Place {
+struct TextPosition {
     line: usize,
     column: usize,
     /// None where the text is not shown.
@@ -42,7 +42,7 @@ impl SceneError {
     /// A mistake in a line of a file whose text is not shown. Lines count from 1.
     pub fn in_line(file: impl fmt::Display, line: usize, message: impl Into<String>) -> Self {
         let mut error = Self::in_file(file, message);
-        error.0.place = Some(Place { line, column: 1, excerpt: None });
+        error.0.place = Some(TextPosition { line, column: 1, excerpt: None });
         error
     }
 
@@ -55,7 +55,7 @@ impl SceneError {
         let line = before.matches('\n').count() + 1;
         let column = text[line_start..start].chars().count() + 1;
         let mut error = Self::in_file(file, message);
-        error.0.place = Some(Place { line, column, excerpt: Some(Excerpt::around(text, start..end)) });
+        error.0.place = Some(TextPosition { line, column, excerpt: Some(Excerpt::around(text, start..end)) });
         error
     }
 

@@ -63,7 +63,7 @@ impl Account {
 }
 
 /// A file that was looked for.
-pub struct Found {
+pub struct FoundFile {
     pub path: PathBuf,
     /// The file has another folder or another case than was written.
     pub is_substitute: bool,
@@ -153,15 +153,15 @@ impl Files {
 
     /// Looks for a file that was written on another machine: as written, without quotes, with folders separated by backslashes, in other case or
     /// with accents taken apart, and by its name alone beside the file that names it.
-    pub fn find(&self, folder: &Path, written: &str) -> Option<Found> {
+    pub fn find(&self, folder: &Path, written: &str) -> Option<FoundFile> {
         if let Some(path) = self.find_exactly(folder, written) {
-            return Some(Found { path, is_substitute: false });
+            return Some(FoundFile { path, is_substitute: false });
         }
         let slashed = slashed(written);
         let relative = Path::new(&slashed);
         let beside = relative.file_name().map(Path::new);
         let elsewhere = in_any_case(folder, relative).or_else(|| in_any_case(folder, beside?));
-        elsewhere.filter(|path| path.is_file()).map(|path| Found { path, is_substitute: true })
+        elsewhere.filter(|path| path.is_file()).map(|path| FoundFile { path, is_substitute: true })
     }
 
     /// Looks for a file whose name is written as it is but for quotes and backslashes, which also escape blanks; this looks into no folder.

@@ -34,7 +34,7 @@ const FILLED: f64 = 0.88;
 pub fn frame(mut scene: Scene, name: &str, view: &ModelView) -> Result<Scene, SceneError> {
     place(&mut scene, view);
     let points = points(&scene);
-    let Stage { ground, light, .. } = Stage::around(&points, name)?;
+    let ModelStage { ground, light, .. } = ModelStage::around(&points, name)?;
     let (center, radius) = sphere_around(&points);
     let elevation = view.elevation_degrees.unwrap_or(ELEVATION);
     if !view.no_ground && elevation < 0.0 {
@@ -81,7 +81,7 @@ fn add_lights(scene: &mut Scene, rectangle: Rectangle) {
 }
 
 /// Ground, light and camera around a model.
-pub struct Stage {
+pub struct ModelStage {
     /// Infinite, so that the horizon is level wherever the camera stands.
     pub ground: Plane,
     /// Above the camera's left shoulder, facing the model.
@@ -89,7 +89,7 @@ pub struct Stage {
     pub camera: Camera,
 }
 
-impl Stage {
+impl ModelStage {
     /// Around all points.
     ///
     /// # Errors

@@ -29,7 +29,7 @@ const LARGE: u64 = 1 << 24;
 /// Stands for texels that are infinite, which most of them became by overflow: the largest half-precision number.
 const OVERFLOWN: f32 = 65_504.0;
 
-/// The pictures of a scene. All together have one budget of memory, and what headers say is held against it before anything is decoded.
+/// The pictures of a scene. All together have one budget of memory, and what headers say is compared with it before anything is decoded.
 #[derive(Debug)]
 pub struct Pictures {
     files: Files,
@@ -100,7 +100,7 @@ impl Hash for PictureSource {
 
 /// A picture that was read.
 #[derive(Debug)]
-pub struct Picture {
+pub struct DecodedImage {
     pub image: ImageData,
     /// Bits of an integer; None: floating-point numbers.
     pub integer_bits: Option<u16>,
@@ -159,12 +159,12 @@ impl Pictures {
     }
 
     /// [`read_image`] within this budget.
-    pub fn read_file(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+    pub fn read_file(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<DecodedImage, String> {
         self.read(&PictureSource::File(path.to_owned()), color_space)
     }
 
     /// Reads a picture from a file, or from within one.
-    pub fn read(&self, source: &PictureSource, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+    pub fn read(&self, source: &PictureSource, color_space: Option<ColorSpace>) -> Result<DecodedImage, String> {
         let file = PictureFile::open(self.open(source)?, source.name(), color_space)?;
         let integer_bits = match &file {
             PictureFile::Coded(file) => Some(file.bits()).filter(|bits| *bits <= 16),
@@ -177,7 +177,7 @@ impl Pictures {
         let beyond =
             (beyond > 0).then(|| format!("{beyond} texels have colours beyond Rec. 709: 0 stands for what is negative in them"));
         let change = [beyond, clamp(&mut image)?].into_iter().flatten().reduce(|a, b| format!("{a}; {b}"));
-        Ok(Picture { image, integer_bits, change, notes, hints, is_plain })
+        Ok(DecodedImage { image, integer_bits, change, notes, hints, is_plain })
     }
 
     fn open(&self, source: &PictureSource) -> Result<AnyFile, String> {
@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_share_a_budget_and_headers_are_held_against_it() {
+    fn pictures_share_a_budget_and_headers_are_compared_with_it() {
         let folder = tempfile::tempdir().unwrap();
         let paths = ["a.png", "b.exr", "c.png"].map(|name| folder.path().join(name));
         image::RgbImage::new(100, 100).save(&paths[0]).unwrap();

@@ -13,7 +13,7 @@ use super::file::shape::{ShapeEntry, plane, rectangle};
 use super::file::syntax::CameraTable;
 use super::file::value::{Checked, Located};
 use super::files::Files;
-use super::framing::{FIELD_OF_VIEW, GROUND, LIGHT, SKY, Stage};
+use super::framing::{FIELD_OF_VIEW, GROUND, LIGHT, ModelStage, SKY};
 use super::import::{Description, camera_at};
 use super::place::{Origin, Place};
 use super::{gltf, mitsuba};
@@ -84,18 +84,18 @@ fn frame(description: &mut Description, name: &str) -> Result<(), SceneError> {
 
 /// The inner error is a sentence about a number that is out of range.
 fn add_stage(description: &mut Description, name: &str, place: &Place) -> Result<Result<(), String>, SceneError> {
-    let lit = description.has_light();
+    let has_light = description.has_light();
     if description.file.camera.is_some() {
         // The camera may stand anywhere, even where a ground or an emitter would hide what it looks at.
-        return Ok(if lit { Ok(()) } else { add_sky(description, place) });
+        return Ok(if has_light { Ok(()) } else { add_sky(description, place) });
     }
     let points = description.points();
-    if points.is_empty() && lit {
+    if points.is_empty() && has_light {
         return Ok(add_camera(description, DVec3::ZERO, DVec3::NEG_Z, place));
     }
-    let Stage { ground, light, camera } = Stage::around(&points, name)?;
+    let ModelStage { ground, light, camera } = ModelStage::around(&points, name)?;
     let mut made = add_camera(description, camera.position, camera.look_at, place);
-    if !lit {
+    if !has_light {
         made = made.and_then(|()| add_sky(description, place)).and_then(|()| add_surfaces(description, ground, light, place));
     }
     Ok(made)

@@ -63,14 +63,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_kind_is_told_once_with_its_first_line_and_how_many_there_are() {
+    fn each_kind_is_reported_once_with_its_first_line_and_how_many_there_are() {
         let mut mends = Mends::default();
         mends.add("b is left out", 7, "b 1");
         mends.add("a is left out", 9, &"x".repeat(50));
         mends.add("b is left out", 8, "b 2");
         mends.add_at("no more", String::new);
-        let told: Vec<_> = mends.into_substitutes().into_iter().map(|one| (one.line, one.what)).collect();
+        let reported: Vec<_> = mends.into_substitutes().into_iter().map(|one| (one.line, one.what)).collect();
         let long = format!("a is left out: `{}…`", "x".repeat(40));
-        assert_eq!(told, [(None, "no more".into()), (Some(7), "b is left out: `b 1`; 2 in all".into()), (Some(9), long)]);
+        assert_eq!(reported, [(None, "no more".into()), (Some(7), "b is left out: `b 1`; 2 in all".into()), (Some(9), long)]);
     }
 }

@@ -34,7 +34,7 @@ impl ModelFormat {
 #[derive(Debug, Default)]
 pub struct ModelFile {
     /// Runs of faces of one object and one material, each with at least one face that has area.
-    pub parts: Vec<Part>,
+    pub parts: Vec<ModelPart>,
     pub materials: Vec<MtlMaterial>,
     /// A number of each face that stands for a material, of formats whose faces have such numbers and one part.
     pub face_groups: Option<Vec<u32>>,
@@ -58,7 +58,7 @@ pub struct MeshAttribute {
 }
 
 #[derive(Debug)]
-pub struct Part {
+pub struct ModelPart {
     pub mesh: Mesh,
     /// Index into [`ModelFile::materials`].
     pub material: Option<usize>,

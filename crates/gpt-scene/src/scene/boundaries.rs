@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn what_bounds_nothing_is_told() {
+    fn what_bounds_nothing_is_reported() {
         let only = |shapes: &str, part: &str| {
             let found = warnings(shapes);
             assert!(matches!(&found[..], [warning] if warning.contains(part)), "{shapes}: {found:?}");

@@ -11,7 +11,7 @@ use super::validate::{InvalidScene, check_camera};
 impl Scene {
     /// The scene as it is at a frame, which need not be a whole number. Shapes whose keys move them while the shutter is open are blurred: they
     /// are exactly where their keys put them as it opens and closes, and move evenly in between. So does the camera, which goes through many
-    /// places on its way. Meshes that are bent are bent as at the
+    /// places on its way. Meshes that are deformed are deformed as at the
     /// frame itself. Meshes, textures and whatever else does not change are shared.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ pub struct Group {
     pub shapes: Vec<Shape>,
 }
 
-/// One group in one place or in many. None of their faces emits: readers of scene files make shapes of lamps, one for each place.
+/// One group in one place or in many. None of their faces emits: readers of scene files make shapes of emitters, one for each place.
 #[derive(Debug, Clone)]
 pub struct Instances {
     /// How errors and reports call them.

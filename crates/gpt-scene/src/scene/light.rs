@@ -1,7 +1,7 @@
 //! Lights that are not surfaces, and the table of them.
 
 mod model;
-mod thrown;
+mod projected;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use super::texture::TextureId;
 use crate::spectrum::Spectrum;
 use model::{DeltaLight, SceneLight, amounts, placed, stands};
 pub use model::{LightParameters, LightStrength};
-pub use thrown::{FALLOFF_LINEAR, FALLOFF_SQUARE, FalloffCurve, Projector, SpotLight, ThrownPicture, picture_turn};
+pub use projected::{FALLOFF_LINEAR, FALLOFF_SQUARE, FalloffCurve, ProjectedTexture, Projector, SpotLight, picture_turn};
 
 /// The table of lights: a row for each that is not a surface. From these rows every layer makes its list of modules and what chooses among
 /// them, so a light is a row here, its parameters below, and a file of its module's name wherever it is represented: `load/file/light`
@@ -334,7 +334,7 @@ impl Light {
         self.model_mut().image_mut()
     }
 
-    /// The texture that it throws, if it does.
+    /// The texture that it projects, if it does.
     pub fn texture(&self) -> Option<TextureId> {
         self.model().texture()
     }

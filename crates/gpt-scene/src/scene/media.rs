@@ -44,7 +44,7 @@ pub struct Filling {
     /// Grids by which the numbers above are multiplied from place to place.
     pub grids: Option<Arc<MediumGrids>>,
     /// Light samples reach it: the camera is within it, or a null surface bounds it.
-    pub is_lit: bool,
+    pub is_light_sampled: bool,
     /// No light is within its bodies, and their surfaces bend all light that goes in or out: no light sample within them finds one.
     pub is_dark: bool,
 }
@@ -53,13 +53,13 @@ impl Filling {
     /// Absorbs and does nothing else.
     fn absorbing(extinction: Spectrum) -> Self {
         let (scattering, emission) = (Spectrum::BLACK, Spectrum::BLACK);
-        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_lit: false, is_dark: false }
+        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_light_sampled: false, is_dark: false }
     }
 
     fn of(medium: &Medium) -> Self {
         let Medium { scattering, emission, .. } = *medium;
         let (phase, grids) = (medium.phase.clone(), medium.grids.clone());
-        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_lit: false, is_dark: false }
+        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_light_sampled: false, is_dark: false }
     }
 
     /// Attenuation per unit length and density by which places are drawn where light passes and is not scattered.
@@ -125,10 +125,10 @@ impl Media {
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
         media.is_open =
             scene.materials.iter().zip(lets_through).map(|(of, lets_through)| of.interior.is_some() && lets_through).collect();
-        let lit = media.behind.iter().zip(&media.is_open).filter_map(|(&number, &is_open)| is_open.then_some(number));
-        for number in lit.chain([media.around_camera]) {
+        let open = media.behind.iter().zip(&media.is_open).filter_map(|(&number, &is_open)| is_open.then_some(number));
+        for number in open.chain([media.around_camera]) {
             if number != 0 {
-                media.fillings[number - 1].is_lit = true;
+                media.fillings[number - 1].is_light_sampled = true;
             }
         }
         let dark = dark_media(scene, &media);
@@ -177,7 +177,7 @@ impl Media {
 /// By medium: no light is within its bodies, and no light sample gets through their surfaces. Bodies that are not closed for sure, that move or stand
 /// in groups are not looked at.
 fn dark_media(scene: &Scene, media: &Media) -> Vec<bool> {
-    let mut is_dark: Vec<bool> = media.fillings.iter().map(|filling| filling.scatters() && !filling.is_lit).collect();
+    let mut is_dark: Vec<bool> = media.fillings.iter().map(|filling| filling.scatters() && !filling.is_light_sampled).collect();
     if !is_dark.contains(&true) {
         return is_dark;
     }
@@ -278,23 +278,27 @@ mod tests {
         assert_eq!(number("mixed"), number("amber"));
     }
 
-    /// Lamps within a body, and surfaces that let light samples through, are looked for.
+    /// Emitters within a body, and surfaces that let light samples through, are looked for.
     #[test]
     fn media_are_dark_where_no_light_is_within() {
         let body = "[[medium]]\nname = 'milk'\nscattering = 2\n[[material]]\nname = 'milk'\ntype = 'glass'\ninterior = 'milk'\n\
                     [[material]]\nname = 'lamp'\ntype = 'emissive'\nradiance = 1\n[[material]]\nname = 'gone'\ntype = 'pass'\n";
         let ball = "[[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'milk'\n";
-        let lamp = |x: f64| format!("[[shape]]\ntype = 'sphere'\ncenter = [{x:?}, 0, 0]\nradius = 0.1\nmaterial = 'lamp'\n");
+        let emitter = |x: f64| format!("[[shape]]\ntype = 'sphere'\ncenter = [{x:?}, 0, 0]\nradius = 0.1\nmaterial = 'lamp'\n");
         let point = "[[light]]\ntype = 'point'\nposition = [0.5, 0.5, 0.5]\nintensity = 1\n";
         let tube = "[[shape]]\ntype = 'cylinder'\nfrom = [0, 0, 0]\nto = [0, 1, 0]\nradius = 1\nmaterial = 'milk'\n";
-        let veil = "[[material]]\nname = 'veil'\ntype = 'blend'\nmaterials = ['milk', 'gone']\nweight = { type = 'constant', value = 0.5 }\n\
-                    [[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'veil'\n";
+        let translucent = "[[material]]\nname = 'translucent'\ntype = 'blend'\nmaterials = ['milk', 'gone']\nweight = { type = 'constant', value = 0.5 }\n\
+                    [[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'translucent'\n";
         let is_dark = |shapes: &str| media(&format!("{body}{shapes}")).1.fillings.iter().any(|filling| filling.is_dark);
-        assert!(is_dark(ball) && is_dark(&format!("{ball}{}", lamp(3.0))));
-        for lit in
-            [format!("{ball}{}", lamp(0.5)), format!("{ball}{point}"), tube.to_owned(), veil.to_owned(), format!("{ball}{tube}")]
-        {
-            assert!(!is_dark(&lit), "{lit}");
+        assert!(is_dark(ball) && is_dark(&format!("{ball}{}", emitter(3.0))));
+        for bright in [
+            format!("{ball}{}", emitter(0.5)),
+            format!("{ball}{point}"),
+            tube.to_owned(),
+            translucent.to_owned(),
+            format!("{ball}{tube}"),
+        ] {
+            assert!(!is_dark(&bright), "{bright}");
         }
     }
 }

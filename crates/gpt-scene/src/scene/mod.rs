@@ -46,7 +46,7 @@ pub use import_report::{ImportReport, ReportItem};
 pub use instance::{Group, Instances, is_singular};
 pub use light::{
     DirectionalLight, Environment, EnvironmentRadiance, FalloffCurve, Light, LightParameters, LightStrength, MapRows,
-    OutsideParameters, PointLight, Projector, Sky, SpotLight, ThrownPicture,
+    OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
 pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, LobeKind, LobeParameters, LobeSupport,

@@ -84,7 +84,7 @@ impl Scene {
         self.shapes.iter().any(|shape| shape.materials().any(|id| emitting[id]))
     }
 
-    /// Lamps or pictures around the scene shine through glass or by mirrors onto what else there is: paths meet such light by chance, and where few do,
+    /// Emitters or pictures around the scene shine through glass or by mirrors onto what else there is: paths meet such light by chance, and where few do,
     /// what they have seen says little of what there is.
     #[doc(hidden)]
     pub fn has_light_by_chance(&self) -> bool {

@@ -45,15 +45,15 @@ impl Scene {
         if let Some(place) = instances.maps().position(|map| !map.is_finite() || is_singular(map.matrix3)) {
             return Err(format!("the transform of number {place}, counted from 0, flattens it or leaves the range of numbers"));
         }
-        let lamp = match instances.material {
+        let emissive = match instances.material {
             Some(material) if material >= self.materials.len() => return Err(format!("there is no material {material}")),
             Some(material) => emits[material].then_some(material),
             None => group.shapes.iter().flat_map(Shape::materials).find(|&id| emits[id]),
         };
-        if let Some(lamp) = lamp {
-            let name = &self.materials[lamp].name;
+        if let Some(emissive) = emissive {
+            let name = &self.materials[emissive].name;
             return Err(format!(
-                "the material `{name}` emits, and lamps are drawn one by one: put the meshes of the group `{}` into the scene's shapes, once for each place, \
+                "the material `{name}` emits, and area lights are sampled one by one: put the meshes of the group `{}` into the scene's shapes, once for each place, \
                  as readers of scene files do",
                 group.name
             ));
@@ -132,10 +132,10 @@ mod tests {
             scene.check_instances(instances, &[false], &[emits], &scene.balls()).err().unwrap_or_default()
         };
         let one = || instances(vec![DAffine3::IDENTITY]);
-        for lit in [one(), Instances { material: Some(0), ..one() }] {
-            let said = check(&lit, true);
+        for emitting in [one(), Instances { material: Some(0), ..one() }] {
+            let said = check(&emitting, true);
             assert!(said.contains("the material `lamp` emits") && said.contains("meshes of the group `tree`"), "{said}");
-            assert_eq!(check(&lit, false), "");
+            assert_eq!(check(&emitting, false), "");
         }
         assert!(check(&instances(vec![DAffine3::IDENTITY, DAffine3::ZERO]), false).contains("number 1"));
         assert!(check(&Instances { group: 1, ..instances(vec![]) }, false).contains("no group 1"));

@@ -6,7 +6,7 @@ use super::shape::{Extent, Shape};
 
 /// Longest edge of a parallelogram that renders right, in units: its overlap with its neighbours, a millionth of an edge, is then one unit.
 const LONGEST_EDGE_OF_QUAD: f64 = 1e6;
-/// Triangles, spheres and disks: extents from and up to which their normals are held.
+/// Triangles, spheres and disks: extents from and up to which their normals are precise.
 const SMALLEST: f64 = 1e-9;
 const LARGEST: f64 = 1e9;
 const EXTENT: &str = "its extent is";

@@ -98,9 +98,9 @@ pub struct Texture {
     pub relief: Relief,
     /// Light that reaches the normals that it bends fades where the surface itself would hide it (Estevez, Lecocq and Stein 2019, "A
     /// microfacet-based shadowing function to solve the bump terminator problem").
-    pub shadows_bent_normals: bool,
+    pub shadows_perturbed_normals: bool,
     /// A normal that it bends away from the viewer is mirrored about the one before; else the surface's own takes its place. Of maps that shadow.
-    pub mirrors_bent_normals: bool,
+    pub mirrors_perturbed_normals: bool,
 }
 
 /// How a texture bends the normals of materials that have it for their normal map.
@@ -129,14 +129,14 @@ impl Texture {
             bends_by_first_uvs: false,
             times: None,
             relief: Relief::default(),
-            shadows_bent_normals: false,
-            mirrors_bent_normals: false,
+            shadows_perturbed_normals: false,
+            mirrors_perturbed_normals: false,
         }
     }
 
     /// A normal map that is this texture bends normals as it is.
     pub fn bends_plainly(&self) -> bool {
-        self.relief == Relief::default() && !self.shadows_bent_normals
+        self.relief == Relief::default() && !self.shadows_perturbed_normals
     }
 
     /// The place in the texture for texture coordinates that its kind has scaled.

@@ -66,8 +66,8 @@ impl Scene {
         }
         self.validate_instances(&textured)?;
         for (index, entry) in self.lights.iter().enumerate() {
-            let thrown = entry.texture().map_or(Ok(()), |texture| self.texture_exists(texture));
-            of(|| format!("light[{index}]"), thrown.and(entry.check()))?;
+            let projected = entry.texture().map_or(Ok(()), |texture| self.texture_exists(texture));
+            of(|| format!("light[{index}]"), projected.and(entry.check()))?;
         }
         of(|| "environment".into(), self.check_environments())
     }

@@ -17,8 +17,8 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
             Relief::Normals(scale) => line("normal_map", &name) + &line("normal_scale", &number(scale)),
             Relief::Heights(scale) => line("bump_map", &name) + &line("bump_scale", &number(scale)),
         };
-        out += &flag("normal_shadowing", writer.scene.textures[texture].shadows_bent_normals);
-        out += &flag("normal_mirroring", writer.scene.textures[texture].mirrors_bent_normals);
+        out += &flag("normal_shadowing", writer.scene.textures[texture].shadows_perturbed_normals);
+        out += &flag("normal_mirroring", writer.scene.textures[texture].mirrors_perturbed_normals);
     }
     let emits = matches!(material.kind, MaterialKind::Emissive);
     match material.emission {

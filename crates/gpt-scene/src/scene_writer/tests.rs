@@ -14,7 +14,7 @@ const HEAD: &str = "[camera]\nposition = [0.1, 1, 4]\nlook_at = [0, 0, 0]\nvfov 
 const MATERIALS: &str = "[[material]]\nname = \"red\"\ntype = \"diffuse\"\nreflectance = [0.6, 0.1, 0.1]\n\
                          [[material]]\nname = \"mirror\"\ntype = \"mirror\"\n";
 const SPHERE: &str = "[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"probe\"\n";
-const LAMP: &str = "[[light]]\ntype = \"point\"\nposition = [1, 3, 2]\nintensity = 9\n";
+const POINT_LIGHT: &str = "[[light]]\ntype = \"point\"\nposition = [1, 3, 2]\nintensity = 9\n";
 
 /// The scene, written and read again.
 fn round_trip(scene: &Scene) -> Scene {
@@ -46,7 +46,7 @@ fn every_built_in_scene_comes_back() {
 #[test]
 fn every_material_comes_back() {
     for (name, keys) in material_examples() {
-        comes_back(&scene(&format!("[[material]]\nname = \"probe\"\n{keys}{SPHERE}{LAMP}")), name);
+        comes_back(&scene(&format!("[[material]]\nname = \"probe\"\n{keys}{SPHERE}{POINT_LIGHT}")), name);
     }
     let textured = "[[texture]]\nname = \"noise\"\ntype = \"perlin\"\na = 0.1\nb = [0.5, 0.25, \"0\"]\noctaves = 3\nseed = 7\nscale = 2.5\n\
                     [[texture]]\nname = \"tiles\"\ntype = \"checker\"\na = 0.1\nb = \"#808080\"\nscale = [3, 4]\n\
@@ -56,7 +56,7 @@ fn every_material_comes_back() {
                     emission = { kelvin = 3000, factor = 4 }\nemission_two_sided = true\n\
                     [[material]]\nname = \"probe\"\ntype = \"blend\"\nmaterials = [\"rough\", \"dim\"]\n\
                     weight = { type = \"threshold\", tau = 0.4, of = { type = \"reverse\", of = { type = \"texture\", texture = \"tiles\" } } }\n";
-    comes_back(&scene(&format!("{}{SPHERE}{LAMP}", textured.replace(", \"0\"]", ", 0]"))), "textures");
+    comes_back(&scene(&format!("{}{SPHERE}{POINT_LIGHT}", textured.replace(", \"0\"]", ", 0]"))), "textures");
 }
 
 #[test]
@@ -65,11 +65,11 @@ fn every_shape_comes_back_where_it_stands_and_as_it_moves() {
                   motion = [{ rotate = [1, 1, 0], degrees = 15 }, { translate = [0.1, 0.2, 0.3] }]\n";
     for (name, keys) in shape_examples() {
         let placed = if name == "plane" { "" } else { placed };
-        comes_back(&scene(&format!("{keys}material = \"red\"\n{placed}{LAMP}")), name);
+        comes_back(&scene(&format!("{keys}material = \"red\"\n{placed}{POINT_LIGHT}")), name);
     }
     let matrix = "transform = { matrix = [1, 0.2, 0, 3, 0, 1, 0, 0, 0, 0.1, 1, 0.25, 0, 0, 0, 1] }\nportal = true\n";
     let keys = "[[shape]]\ntype = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\nmaterial = \"red\"\n";
-    comes_back(&scene(&format!("{keys}{matrix}{LAMP}")), "a matrix");
+    comes_back(&scene(&format!("{keys}{matrix}{POINT_LIGHT}")), "a matrix");
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn every_light_and_camera_comes_back() {
     ] {
         let text = format!(
             "[film]\nsize = [30, 20]\nfilter = {{ type = \"tent\", radius = 1.25 }}\n[render]\nspp = 7\nsampler = \"halton\"\n\
-                            pixel_sampler = \"sobol\"\nmax_depth = 3\n[output]\naov = [\"albedo\", \"depth\"]\n[camera]\n{camera}\n{LAMP}"
+                            pixel_sampler = \"sobol\"\nmax_depth = 3\n[output]\naov = [\"albedo\", \"depth\"]\n[camera]\n{camera}\n{POINT_LIGHT}"
         );
         comes_back(&load_toml_str(&text, "test.toml", Path::new("")).unwrap(), camera);
     }
@@ -93,7 +93,7 @@ fn every_light_and_camera_comes_back() {
 /// Names that are empty or the same twice, as importers may bring them, are told apart.
 #[test]
 fn names_need_not_be_good() {
-    let mut bad = scene(&format!("[[material]]\nname = \"probe\"\ntype = \"glass\"\n{SPHERE}{LAMP}"));
+    let mut bad = scene(&format!("[[material]]\nname = \"probe\"\ntype = \"glass\"\n{SPHERE}{POINT_LIGHT}"));
     bad.materials.iter_mut().for_each(|material| material.name.clear());
     let read = round_trip(&bad);
     assert_eq!(
@@ -107,7 +107,7 @@ fn names_need_not_be_good() {
 #[test]
 fn meshes_that_come_from_no_file_come_back() {
     let mut made = scene(&format!(
-        "{}{LAMP}",
+        "{}{POINT_LIGHT}",
         "[[shape]]\ntype = \"mesh\"\nfile = \"bad.obj\"\nmaterial = \"red\"\n"
             .replace("file = \"bad.obj\"", "positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]")
     ));
@@ -138,7 +138,8 @@ fn a_models_file_is_named_and_its_materials_can_be_replaced() {
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.3\nusemtl wood\nf 1 2 3\nusemtl iron\nf 2 4 3\n";
     std::fs::write(folder.path().join("a.obj"), obj).unwrap();
     std::fs::write(folder.path().join("a.mtl"), "newmtl wood\nKd 0.5 0.3 0.1\nnewmtl iron\nKd 0.2 0.2 0.2\n").unwrap();
-    let text = format!("{HEAD}{MATERIALS}[[shape]]\ntype = \"mesh\"\nfile = \"a.obj\"\nmaterials = {{ iron = \"red\" }}\n{LAMP}");
+    let text =
+        format!("{HEAD}{MATERIALS}[[shape]]\ntype = \"mesh\"\nfile = \"a.obj\"\nmaterials = {{ iron = \"red\" }}\n{POINT_LIGHT}");
     let original = load_toml_str(&text, "test.toml", folder.path()).unwrap();
     let names: Vec<&str> = original.materials.iter().map(|material| material.name.as_str()).collect();
     assert_eq!(names, ["red", "mirror", "wood"]);
@@ -153,7 +154,8 @@ fn a_models_file_is_named_and_its_materials_can_be_replaced() {
     assert_eq!(digest(&read), digest(&original));
 
     for (written, message) in [("irn = \"red\"", "no material named `irn`"), ("iron = \"rd\"", "no material named `rd`")] {
-        let text = format!("{HEAD}{MATERIALS}[[shape]]\ntype = \"mesh\"\nfile = \"a.obj\"\nmaterials = {{ {written} }}\n{LAMP}");
+        let text =
+            format!("{HEAD}{MATERIALS}[[shape]]\ntype = \"mesh\"\nfile = \"a.obj\"\nmaterials = {{ {written} }}\n{POINT_LIGHT}");
         let error = load_toml_str(&text, "test.toml", folder.path()).unwrap_err().to_string();
         assert!(error.contains(message) && error.contains("shape[0]"), "{error}");
     }

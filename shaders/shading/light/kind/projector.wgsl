@@ -1,4 +1,4 @@
-// A projector: a point light that throws a rectangular picture.
+// A projector: a point light that projects a rectangular picture.
 #import core/layout.wgsl
 #import shading/light/record.wgsl
 #import shading/light/light_sample.wgsl

@@ -24,11 +24,11 @@ pub struct Kernel<'a> {
     steps: Cell<u64>,
     /// Records that were followed before: materials and textures by their number, which lead to the same
     /// words every time.
-    known: RefCell<HashSet<(Part, u32)>>,
+    known: RefCell<HashSet<(RecordKind, u32)>>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Part {
+enum RecordKind {
     Material,
     Plain,
     Texture,
@@ -63,7 +63,7 @@ impl Kernel<'_> {
     }
 
     /// True where a part is met for the first time.
-    fn is_new(&self, part: Part, number: u32) -> bool {
+    fn is_new(&self, part: RecordKind, number: u32) -> bool {
         self.known.borrow_mut().insert((part, number))
     }
 
@@ -190,7 +190,7 @@ impl Kernel<'_> {
 
     /// geometry/motion.wgsl
     fn motion(&self, first: u32) -> Read<()> {
-        if !self.is_new(Part::Motion, first) {
+        if !self.is_new(RecordKind::Motion, first) {
             return Ok(());
         }
         let word = |index: u32| self.table(self.tables.first_motion.wrapping_add(index));
@@ -207,7 +207,7 @@ impl Kernel<'_> {
 
     /// shading/material/bsdf.wgsl, blend.wgsl: what a surface emits and how it scatters.
     fn material(&self, material: u32) -> Read<()> {
-        if !self.is_new(Part::Material, material) {
+        if !self.is_new(RecordKind::Material, material) {
             return Ok(());
         }
         let first = material.wrapping_mul(5);
@@ -243,7 +243,7 @@ impl Kernel<'_> {
     }
 
     fn load(&self, material: u32) -> Read<()> {
-        if !self.is_new(Part::Plain, material) {
+        if !self.is_new(RecordKind::Plain, material) {
             return Ok(());
         }
         let words = (0..5).map(|word| self.table(material.wrapping_mul(5).wrapping_add(word))).collect::<Read<Vec<_>>>()?;
@@ -278,7 +278,7 @@ impl Kernel<'_> {
 
     /// shading/texture/texture.wgsl; kernels without textures have no code for them.
     fn texture(&self, texture: u32) -> Read<()> {
-        if self.scene.textures.textures.is_empty() || !self.is_new(Part::Texture, texture) {
+        if self.scene.textures.textures.is_empty() || !self.is_new(RecordKind::Texture, texture) {
             return Ok(());
         }
         let first = self.tables.first_texture.wrapping_add(texture.wrapping_mul(5));

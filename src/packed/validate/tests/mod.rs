@@ -37,7 +37,7 @@ type Corruption = Box<dyn Fn(u32) -> u32 + Sync>;
 
 /// A place in a packed scene that can be overwritten.
 #[derive(Debug, Clone, Copy)]
-enum Place {
+enum PackedWord {
     Word(Array, usize),
     Motion(usize),
     Texel(usize),
@@ -53,33 +53,33 @@ fn map_fields(map: &mut PackedMap) -> [&mut u32; 8] {
 }
 
 /// Changes one word; the map's fields where there is a map.
-fn change(scene: &mut PackedScene, place: Place, new: impl Fn(u32) -> u32) {
+fn change(scene: &mut PackedScene, place: PackedWord, new: impl Fn(u32) -> u32) {
     let as_bits = |float: &mut f32| *float = f32::from_bits(new(float.to_bits()));
     match place {
-        Place::Word(array, word) => {
+        PackedWord::Word(array, word) => {
             let word = &mut words_mut(scene, array)[word];
             *word = new(*word);
         }
-        Place::Motion(word) => as_bits(&mut bytemuck::cast_slice_mut::<_, f32>(&mut scene.motions)[word]),
-        Place::Texel(word) => {
+        PackedWord::Motion(word) => as_bits(&mut bytemuck::cast_slice_mut::<_, f32>(&mut scene.motions)[word]),
+        PackedWord::Texel(word) => {
             let word = word - scene.textures.first_word();
             scene.textures.words[word] = new(scene.textures.words[word]);
         }
-        Place::Map(field) => {
+        PackedWord::Map(field) => {
             if let Some(map) = &mut scene.environment.map {
                 let [field] =
                     map_fields(map).into_iter().skip(field).take(1).collect::<Vec<_>>().try_into().expect("eight fields");
                 *field = new(*field);
             }
         }
-        Place::LightCells(word) => scene.light_cells[word] = new(scene.light_cells[word]),
-        Place::StackSize => scene.hierarchy.stack_size = new(scene.hierarchy.stack_size),
-        Place::PrimitiveCount => scene.hierarchy.primitive_count = new(scene.hierarchy.primitive_count),
+        PackedWord::LightCells(word) => scene.light_cells[word] = new(scene.light_cells[word]),
+        PackedWord::StackSize => scene.hierarchy.stack_size = new(scene.hierarchy.stack_size),
+        PackedWord::PrimitiveCount => scene.hierarchy.primitive_count = new(scene.hierarchy.primitive_count),
     }
 }
 
 /// Every word, and whether it is one that has to be refused where it is [`BEYOND`].
-fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
+fn places(scene: &PackedScene) -> Vec<(PackedWord, bool)> {
     let mut places = Vec::new();
     for array in Array::ALL {
         for (index, record) in array.of(scene).chunks_exact(array.record_words()).enumerate() {
@@ -90,7 +90,7 @@ fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
                     Some((_, Word::Index(_) | Word::Optional(_) | Word::Checked)) => true,
                     Some((_, Word::CheckedIn(holds))) => holds(record),
                 };
-                places.push((Place::Word(array, index * record.len() + word), judged));
+                places.push((PackedWord::Word(array, index * record.len() + word), judged));
             }
         }
     }
@@ -101,21 +101,21 @@ fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
         let rows = 1 + 2 * scene.motions[row][3].to_bits() as usize;
         for within in 0..rows {
             let judged = within == 0 || within % 2 == 1;
-            places.extend((0..4).map(|word| (Place::Motion(4 * (row + within) + word), judged && word == 3)));
+            places.extend((0..4).map(|word| (PackedWord::Motion(4 * (row + within) + word), judged && word == 3)));
         }
         row += rows;
     }
     let nodes = scene.environment.map.map_or(0..0, |map| map.first_node as usize..map.first_density as usize);
     // Before the map stand colours and what integers stand for: any will do.
     let first = scene.environment.map.map_or(scene.textures.texel_words(), |map| map.first_texel as usize);
-    places.extend((first..scene.textures.texel_words()).map(|texel| (Place::Texel(texel), nodes.contains(&texel))));
+    places.extend((first..scene.textures.texel_words()).map(|texel| (PackedWord::Texel(texel), nodes.contains(&texel))));
     if scene.environment.map.is_some() {
-        places.extend((0..8).map(|field| (Place::Map(field), true)));
+        places.extend((0..8).map(|field| (PackedWord::Map(field), true)));
     }
     // The begin of the grid of cells of lights and the size of its boxes may have any value.
-    places.extend((0..scene.light_cells.len()).map(|word| (Place::LightCells(word), word >= 4)));
+    places.extend((0..scene.light_cells.len()).map(|word| (PackedWord::LightCells(word), word >= 4)));
     let walks_nodes = scene.hierarchy.traversal == Traversal::Bvh;
-    places.extend([(Place::StackSize, walks_nodes), (Place::PrimitiveCount, true)]);
+    places.extend([(PackedWord::StackSize, walks_nodes), (PackedWord::PrimitiveCount, true)]);
     places
 }
 
@@ -213,7 +213,7 @@ fn listed_words_are_refused_and_others_are_not() {
 #[test]
 fn no_corrupted_words_together_lead_a_kernel_out_of_bounds() {
     for (name, scene) in scenes::all() {
-        let judged: Vec<Place> = places(&scene).into_iter().filter(|(_, judged)| *judged).map(|(place, _)| place).collect();
+        let judged: Vec<PackedWord> = places(&scene).into_iter().filter(|(_, judged)| *judged).map(|(place, _)| place).collect();
         let corruptions = corruptions(&scene);
         let mut random = 1;
         let mut draw = |count: usize| {

@@ -13,8 +13,8 @@ use crate::sampling::light_cells::table;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
     EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, Light, LightChoice, Masking, Material,
-    MaterialKind, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene,
-    Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, ThrownPicture, Transform,
+    MaterialKind, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, ProjectedTexture,
+    Rectangle, Scene, Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, Transform,
 };
 use crate::spectrum::Spectrum;
 
@@ -84,7 +84,7 @@ fn image(width: u32, height: u32) -> Arc<ImageData> {
         2 => Texels::Shorts { codes: vec![[1, 2, 3, 4]; count], space: ColorSpace::Linear },
         3 => Texels::Half(vec![[0x3800; 4]; count]),
         4 => Texels::FloatAlpha(vec![[0.1, 0.5, 0.2, 0.7]; count]),
-        // A lamp that shows it is drawn by what it shows.
+        // An area light that emits it is sampled by it.
         6 => Texels::Float((0..count).map(|index| [if index == 7 { 50.0 } else { 0.1 }; 3]).collect()),
         _ => Texels::Float((0..count).map(|index| [0.1 * index as f32, 0.5, 0.2]).collect()),
     };
@@ -209,7 +209,7 @@ fn everything() -> Scene {
     assert!(scene.lights.len() >= LightKind::DELTA.len(), "every kind has an example: {:?}", scene.lights);
     for light in &mut scene.lights {
         match light {
-            Light::Spot(spot) => spot.picture = Some(ThrownPicture { texture: 1, up: DVec3::X }),
+            Light::Spot(spot) => spot.picture = Some(ProjectedTexture { texture: 1, up: DVec3::X }),
             Light::Projector(projector) => projector.texture = Some(4),
             _ => {}
         }

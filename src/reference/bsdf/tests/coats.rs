@@ -13,8 +13,8 @@ fn mapped(lobe: Lobe, texel: Option<NormalTexel>) -> Lobe {
     Lobe::Principled(Principled { layers: PrincipledLayers { coat_texel: texel, ..principled.layers }, ..principled })
 }
 
-/// A surface whose base is bent by some degrees, and whose coat is nearly not.
-fn bent_below(wo_degrees: f64, tilt_degrees: f64) -> View {
+/// A surface whose base is perturbed by some degrees, and whose coat is nearly not.
+fn perturbed_below(wo_degrees: f64, tilt_degrees: f64) -> View {
     view(wo_degrees, tilt_degrees)
         .with_coat_normal(Some(at_degrees(4.0, 1.0)))
         .with_tangents(Some(Tangents::along(DVec3::new(1.0, 0.2, 0.0), DVec3::Y)))
@@ -41,7 +41,7 @@ fn surfaces(tilt_degrees: f64) -> Vec<(String, Bsdf)> {
         for texel in [None, leaning(1.0), leaning(-0.6)] {
             for degrees in [10.0, 70.0, 130.0] {
                 let name = format!("{} with {texel:?} at {degrees}", keys.replace('\n', ", "));
-                surfaces.push((name, single(mapped(principled(keys), texel), bent_below(degrees, tilt_degrees))));
+                surfaces.push((name, single(mapped(principled(keys), texel), perturbed_below(degrees, tilt_degrees))));
             }
         }
     }
@@ -92,7 +92,7 @@ fn coats_make_no_energy() {
 #[test]
 fn smooth_coats_mirror_about_their_own_normals() {
     let lobe = principled("base_color = 0\nmetallic = 0\nspecular = 0\nroughness = 0.5\nclearcoat = 1");
-    let view = bent_below(30.0, 25.0);
+    let view = perturbed_below(30.0, 25.0);
     let own = at_degrees(4.0, 1.0);
     let mirror = |normal: DVec3| 2.0 * view.wo.dot(normal) * normal - view.wo;
     let drawn = |texel: Option<NormalTexel>| single(mapped(lobe, texel), view).sample(0.0, 0.3, 0.4).expect("it reflects");
@@ -101,10 +101,10 @@ fn smooth_coats_mirror_about_their_own_normals() {
     // About u and v, which are nearly x and y.
     let tangents = Tangents::along(DVec3::new(1.0, 0.2, 0.0), DVec3::Y);
     for scale in [1.0, 0.5, -0.7] {
-        let bent = tangents.direction(own, LEANING, scale).expect("it has tangents");
+        let perturbed = tangents.direction(own, LEANING, scale).expect("it has tangents");
         let sample = drawn(leaning(scale));
-        assert!((sample.wi - mirror(bent)).length() < 1e-12 && bent.dot(own) < 0.98, "{sample:?}");
-        let fresnel = 0.04 + 0.96 * (1.0 - view.wo.dot(bent)).powi(5);
+        assert!((sample.wi - mirror(perturbed)).length() < 1e-12 && perturbed.dot(own) < 0.98, "{sample:?}");
+        let fresnel = 0.04 + 0.96 * (1.0 - view.wo.dot(perturbed)).powi(5);
         assert!((sample.weight.r() - fresnel).abs() < 0.02, "all of the light that it reflects: {sample:?} {fresnel}");
     }
 }

@@ -1,4 +1,4 @@
-//! Glass whose channels are not bent alike.
+//! Glass whose channels are not refracted alike.
 
 use super::super::principled::Principled;
 use super::super::principled_layers::PrincipledLayers;

@@ -94,7 +94,7 @@ const HAMMERED: &[u8] = include_bytes!("../../../../scenes/textures/hammered.png
 
 /// Bump maps, and textures that lights throw, are read without a word; the picture is that of the scene file written from it.
 #[test]
-fn bumps_and_thrown_pictures_are_exact() {
+fn bumps_and_projected_pictures_are_exact() {
     let xml = with(
         r#"<shape type="rectangle"><bsdf type="bumpmap"><texture type="bitmap"><string name="filename" value="h.png"/></texture><float name="scale" value="0.1"/>
           <bsdf type="diffuse"/></bsdf></shape>
@@ -151,8 +151,8 @@ fn bent_normals_are_shadowed() {
         let folder = Folder::new(&[("a.xml", map(more).as_bytes()), ("h.png", HAMMERED)]);
         let scene = folder.valid("a.xml");
         let bent = scene.materials.iter().find_map(|material| material.normal_map).expect("a map");
-        assert_eq!((scene.textures[bent].shadows_bent_normals, report(&scene).as_str()), (expected, ""));
-        assert_eq!(scene.textures[bent].mirrors_bent_normals, expected);
+        assert_eq!((scene.textures[bent].shadows_perturbed_normals, report(&scene).as_str()), (expected, ""));
+        assert_eq!(scene.textures[bent].mirrors_perturbed_normals, expected);
         let drawn = picture(&scene);
         assert_eq!(picture(&folder.written("a.xml")), drawn);
         drawn

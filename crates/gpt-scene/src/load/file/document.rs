@@ -67,7 +67,7 @@ impl<'a> Document<'a> {
     /// All that keeps the text from being read; `first` is what the whole text was refused for.
     fn all_mistakes<T: DeserializeOwned>(&self, first: SceneError) -> SceneError {
         let Ok(root) = self.parsed() else { return first };
-        // To find the key of a mistake takes as long as the text is: no more mistakes are translated than are told.
+        // To find the key of a mistake takes as long as the text is: no more mistakes are translated than are reported.
         let mistakes = reader::mistakes::<T>(root).into_iter().take(MOST_ERRORS);
         SceneError::of_all(mistakes.map(|mistake| self.translate(mistake)).collect()).unwrap_or(first)
     }

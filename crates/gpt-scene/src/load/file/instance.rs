@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::nested::{FileGroup, Groups, Held};
+use super::nested::{FileGroup, Groups, NestedInstance};
 use super::place_file::{PLACE_NUMBERS, PlaceFormat, place_rows};
 use super::reference::FileOr;
 use super::resolver::Resolver;
@@ -34,14 +34,14 @@ pub struct GroupEntry {
     pub shape: Vec<Located<ShapeEntry>>,
     /// Other groups within it, each a `[[group.instance]]`. Those may hold groups too, up to 64 within each other.
     #[serde(default)]
-    pub instance: Vec<Located<HeldEntry>>,
+    pub instance: Vec<Located<NestedInstanceEntry>>,
 }
 
 /// A group within another one, at rest in that one's space.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "HeldInstance", extend("not" = { "required": ["places", "file"] }))]
-pub struct HeldEntry {
+pub struct NestedInstanceEntry {
     /// The name of another `[[group]]`, which does not hold this one.
     pub group: Located<String>,
     /// Steps applied in this order, or a matrix; after the places, where there are some.
@@ -101,12 +101,12 @@ impl Resolver<'_> {
                 self.note::<()>(Err(self.error(&entry.name.place, format!("the group `{name}` has no shapes"))));
             }
             let own = self.group_shapes(index, entry);
-            let mut held = Vec::with_capacity(entry.instance.len());
+            let mut nested = Vec::with_capacity(entry.instance.len());
             for written in &entry.instance {
-                let found = self.held(&written.value, &names);
-                held.extend(self.note(found));
+                let found = self.nested_instance(&written.value, &names);
+                nested.extend(self.note(found));
             }
-            groups.push(FileGroup { name, own, held });
+            groups.push(FileGroup { name, own, nested });
         }
         let groups = Groups::new(groups).map_err(|(span, message)| self.error(&span, message))?;
         Ok((names, groups))
@@ -128,9 +128,13 @@ impl Resolver<'_> {
         })
     }
 
-    fn held(&self, written: &HeldEntry, names: &HashMap<String, usize>) -> Result<Held, SceneError> {
+    fn nested_instance(
+        &self,
+        written: &NestedInstanceEntry,
+        names: &HashMap<String, usize>,
+    ) -> Result<NestedInstance, SceneError> {
         let group = self.look_up(names, &written.group, "group")?;
-        let HeldEntry { transform, places, file, .. } = written;
+        let NestedInstanceEntry { transform, places, file, .. } = written;
         let places = WrittenPlaces { transform: transform.as_ref(), places: places.as_ref(), file: file.as_ref() };
         let (places, transform) = self.places(&places)?;
         let around = transform.to_affine();
@@ -140,19 +144,19 @@ impl Resolver<'_> {
             return Err(self.error(&written.group.place, message));
         }
         let material = written.material.as_ref().map(|name| self.material_id(name)).transpose()?;
-        Ok(Held { group, maps, material, named_at: written.group.place.clone() })
+        Ok(NestedInstance { group, maps, material, named_at: written.group.place.clone() })
     }
 
     fn group_shape(&mut self, place: usize, written: &Located<ShapeEntry>) -> Result<crate::scene::Shape, SceneError> {
         let shape = self.checked_shape(place, written);
-        let is_bent = self.deformation.take().is_some();
+        let is_deformed = self.deformation.take().is_some();
         let shape = shape?;
         if !matches!(shape.geometry, Geometry::Mesh(_)) {
             let message = format!("a group consists of meshes, and this is a {}", shape.geometry.kind_name());
             return Err(self.error(&written.place, message).with_help("write it as a [[shape]] for each place, or as a mesh"));
         }
-        if shape.motion.is_some() || is_bent || written.value.is_animated() || shape.portal {
-            let message = "a mesh of a group has no motion of its own, is not bent and is no portal";
+        if shape.motion.is_some() || is_deformed || written.value.is_animated() || shape.portal {
+            let message = "a mesh of a group has no motion of its own, is not deformed and is no portal";
             return Err(self.error(&written.place, message).with_help("an [[instance]] can have `motion`"));
         }
         Ok(shape)
@@ -161,8 +165,8 @@ impl Resolver<'_> {
     pub(super) fn instances(&mut self, written: &[Located<InstanceEntry>], names: &HashMap<String, usize>, groups: &Groups) {
         let textured = self.scene.materials_that(Material::uses_texture);
         let emits = self.scene.materials_that(|material| material.emission.is_some());
-        let lit_groups = self.lit_groups(&emits);
-        let are_lit = |part: &Instances| part.material.map_or(lit_groups[part.group], |material| emits[material]);
+        let emissive_groups = self.emissive_groups(&emits);
+        let are_emissive = |part: &Instances| part.material.map_or(emissive_groups[part.group], |material| emits[material]);
         // Emitting shapes are added to the scene as shapes, so that no instance emits.
         let none_emits = vec![false; emits.len()];
         let balls = self.scene.balls();
@@ -177,8 +181,9 @@ impl Resolver<'_> {
                 let (mut kept, mut copies) = (Vec::new(), Vec::new());
                 for part in all {
                     let check = self.scene.check_instances(&part, &textured, &none_emits, &balls);
-                    let lit = check.and_then(|()| if are_lit(&part) { self.lit_copies(&part).map(Some) } else { Ok(None) });
-                    let of_held = |message: String| match part.label == instances.label {
+                    let emissive =
+                        check.and_then(|()| if are_emissive(&part) { self.emissive_copies(&part).map(Some) } else { Ok(None) });
+                    let of_nested = |message: String| match part.label == instances.label {
                         true => message,
                         false => format!(
                             "of `{}` within `{}`: {message}",
@@ -186,7 +191,7 @@ impl Resolver<'_> {
                             groups.name(instances.group)
                         ),
                     };
-                    match lit.map_err(|message| self.error(&entry.place, of_held(message)))? {
+                    match emissive.map_err(|message| self.error(&entry.place, of_nested(message)))? {
                         Some(shapes) => copies.extend(shapes),
                         None => kept.push(part),
                     }

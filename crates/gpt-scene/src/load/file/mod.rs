@@ -5,11 +5,11 @@
 
 pub(super) mod colour;
 mod document;
+mod emissive_instances;
 pub(super) mod import;
 pub(super) mod instance;
 pub(super) mod keyframes;
 pub(super) mod light;
-mod lit_instances;
 pub(super) mod material;
 pub mod medium;
 mod nested;

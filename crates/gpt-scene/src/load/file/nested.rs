@@ -20,12 +20,12 @@ const TURNING_BYTES: u64 = 8192;
 
 /// A group in one place or more of another group.
 #[derive(Debug)]
-pub struct Held {
+pub struct NestedInstance {
     /// Among the groups of the file.
     pub group: usize,
-    /// From the held group's space to that of the group around, a map each.
+    /// From the nested group's space to that of the group around, a map each.
     pub maps: Vec<DAffine3>,
-    /// In place of the held group's own materials.
+    /// In place of the nested group's own materials.
     pub material: Option<MaterialId>,
     /// Place in the file where the nested group is named.
     pub named_at: Place,
@@ -37,7 +37,7 @@ pub struct FileGroup {
     pub name: String,
     /// The scene's group of its own meshes; None where it has none.
     pub own: Option<usize>,
-    pub held: Vec<Held>,
+    pub nested: Vec<NestedInstance>,
 }
 
 /// The groups of a file. None contains itself.
@@ -72,9 +72,9 @@ impl Groups {
         let mut reached = named.to_vec();
         let mut to_visit: Vec<usize> = (0..reached.len()).filter(|&group| reached[group]).collect();
         while let Some(group) = to_visit.pop() {
-            for held in &self.groups[group].held {
-                if !std::mem::replace(&mut reached[held.group], true) {
-                    to_visit.push(held.group);
+            for nested in &self.groups[group].nested {
+                if !std::mem::replace(&mut reached[nested.group], true) {
+                    to_visit.push(nested.group);
                 }
             }
         }
@@ -125,7 +125,7 @@ impl Groups {
                 let name = self.name(found.file_group);
                 let is_outermost = found.file_group == entry.group;
                 let label = if is_outermost { entry.label.clone() } else { format!("{}: `{name}`", entry.label) };
-                // One that is not held by another turns about its own origin anyway.
+                // One that is not nested in another turns about its own origin anyway.
                 let pivot = if is_outermost { entry.pivot } else { found.pivot };
                 let (places, material) = (Arc::new(found.places), found.material);
                 Instances { label, group: found.group, places, material, pivot, ..entry.clone() }
@@ -147,13 +147,13 @@ type Kind = (usize, Option<MaterialId>, Option<[u64; 3]>);
 struct Expansion<'a> {
     groups: &'a Groups,
     is_pass: &'a dyn Fn(MaterialId) -> bool,
-    found: Vec<Found>,
+    found: Vec<InstancesOfGroup>,
     /// Which of them are of a group, of a material, and move about a point.
     known: HashMap<Kind, usize>,
 }
 
 /// Instances of one group of the scene.
-struct Found {
+struct InstancesOfGroup {
     file_group: usize,
     group: usize,
     material: Option<MaterialId>,
@@ -172,17 +172,17 @@ impl Expansion<'_> {
             let pivot = if group == entry.group { None } else { pivot };
             let key = (group, material, pivot.map(|pivot| pivot.to_array().map(f64::to_bits)));
             let index = *self.known.entry(key).or_insert_with(|| {
-                self.found.push(Found { file_group: group, group: own, material, pivot, places: Vec::new() });
+                self.found.push(InstancesOfGroup { file_group: group, group: own, material, pivot, places: Vec::new() });
                 self.found.len() - 1
             });
             self.found[index].places.push(map);
         }
-        for held in &groups.groups[group].held {
+        for nested in &groups.groups[group].nested {
             // A material of the outer instance replaces the inner one, except that null surfaces stay
             // openings.
-            let within = held.material.filter(|&id| material.is_none() || (self.is_pass)(id)).or(material);
-            for own in &held.maps {
-                self.add(entry, held.group, map * *own, within, pivot);
+            let within = nested.material.filter(|&id| material.is_none() || (self.is_pass)(id)).or(material);
+            for own in &nested.maps {
+                self.add(entry, nested.group, map * *own, within, pivot);
             }
         }
     }
@@ -205,20 +205,20 @@ impl Counter<'_> {
         }
         let (mut count, mut depth) = (u64::from(self.groups[group].own.is_some()), 1);
         self.chain.push(group);
-        for held in &self.groups[group].held {
-            if let Some(start) = self.chain.iter().position(|&around| around == held.group) {
-                return Err((held.named_at.clone(), self.circle(start)));
+        for nested in &self.groups[group].nested {
+            if let Some(start) = self.chain.iter().position(|&around| around == nested.group) {
+                return Err((nested.named_at.clone(), self.circle(start)));
             }
-            let too_deep = || (held.named_at.clone(), format!("groups lie more than {DEEPEST} deep within each other"));
+            let too_deep = || (nested.named_at.clone(), format!("groups lie more than {DEEPEST} deep within each other"));
             if self.chain.len() >= DEEPEST {
                 return Err(too_deep());
             }
-            let (of_one, below) = self.count(held.group)?;
+            let (of_one, below) = self.count(nested.group)?;
             depth = depth.max(below + 1);
             if depth > DEEPEST {
                 return Err(too_deep());
             }
-            count = count.saturating_add(of_one.saturating_mul(held.maps.len() as u64));
+            count = count.saturating_add(of_one.saturating_mul(nested.maps.len() as u64));
         }
         self.chain.pop();
         self.known[group] = Some((count, depth));
@@ -245,12 +245,12 @@ mod tests {
     use super::*;
     use crate::scene::{Motion, Transform};
 
-    fn held(group: usize, maps: Vec<DAffine3>) -> Held {
-        Held { group, maps, material: None, named_at: (group..group + 1).into() }
+    fn nested(group: usize, maps: Vec<DAffine3>) -> NestedInstance {
+        NestedInstance { group, maps, material: None, named_at: (group..group + 1).into() }
     }
 
-    fn group(own: Option<usize>, held: Vec<Held>) -> FileGroup {
-        FileGroup { name: "abcdefgh".chars().nth(own.unwrap_or(7)).map(String::from).unwrap_or_default(), own, held }
+    fn group(own: Option<usize>, nested: Vec<NestedInstance>) -> FileGroup {
+        FileGroup { name: "abcdefgh".chars().nth(own.unwrap_or(7)).map(String::from).unwrap_or_default(), own, nested }
     }
 
     fn entry(group: usize, places: Vec<DAffine3>) -> Instances {
@@ -266,8 +266,8 @@ mod tests {
     fn what_groups_hold_stands_in_all_of_their_places() {
         let two = vec![at(1.0), at(2.0)];
         let groups = Groups::new(vec![
-            group(Some(0), vec![held(1, two.clone()), held(2, vec![at(100.0)])]),
-            group(Some(1), vec![held(2, two)]),
+            group(Some(0), vec![nested(1, two.clone()), nested(2, vec![at(100.0)])]),
+            group(Some(1), vec![nested(2, two)]),
             group(Some(2), vec![]),
         ]);
         let groups = groups.expect("none contains itself");
@@ -283,16 +283,16 @@ mod tests {
     #[test]
     fn circles_are_named() {
         let groups = vec![
-            group(Some(0), vec![held(1, vec![])]),
-            group(Some(1), vec![held(2, vec![])]),
-            group(Some(2), vec![held(0, vec![])]),
+            group(Some(0), vec![nested(1, vec![])]),
+            group(Some(1), vec![nested(2, vec![])]),
+            group(Some(2), vec![nested(0, vec![])]),
         ];
         let (at, message) = Groups::new(groups).expect_err("a circle");
         assert_eq!(
             (at, &*message),
             ((0..1).into(), "the group `a` contains itself: `a` holds `b`, which holds `c`, which holds `a`")
         );
-        let (_, message) = Groups::new(vec![group(Some(0), vec![held(0, vec![])])]).expect_err("a circle");
+        let (_, message) = Groups::new(vec![group(Some(0), vec![nested(0, vec![])])]).expect_err("a circle");
         assert_eq!(message, "the group `a` contains itself");
     }
 
@@ -300,7 +300,7 @@ mod tests {
     #[test]
     fn what_grows_without_bound_is_refused() {
         let chain = |length: usize, times: usize| -> Vec<FileGroup> {
-            let of = |index: usize| held(index + 1, vec![DAffine3::IDENTITY; times]);
+            let of = |index: usize| nested(index + 1, vec![DAffine3::IDENTITY; times]);
             (0..length).map(|index| group(Some(0), if index + 1 < length { vec![of(index)] } else { vec![] })).collect()
         };
         let doublings = Groups::new(chain(31, 2)).expect("none contains itself");
@@ -314,15 +314,15 @@ mod tests {
         assert!(Groups::new(chain(DEEPEST, 1)).is_ok());
         assert!(Groups::new(chain(1000, 1)).is_err());
         // Inner groups come first.
-        let reversed = (0..1000).map(|index| group(Some(0), if index > 0 { vec![held(index - 1, vec![])] } else { vec![] }));
+        let reversed = (0..1000).map(|index| group(Some(0), if index > 0 { vec![nested(index - 1, vec![])] } else { vec![] }));
         let (_, message) = Groups::new(reversed.collect()).expect_err("too deep");
         assert_eq!(message, "groups lie more than 64 deep within each other");
     }
 
-    /// A held instance goes round the place of what holds it, which moves as a whole.
+    /// A nested instance goes round the place of what holds it, which moves as a whole.
     #[test]
     fn what_turns_turns_about_the_outermost() {
-        let groups = vec![group(Some(0), vec![held(1, vec![at(1.0)])]), group(Some(1), vec![])];
+        let groups = vec![group(Some(0), vec![nested(1, vec![at(1.0)])]), group(Some(1), vec![])];
         let groups = Groups::new(groups).expect("none contains itself");
         let moving = |step| Instances { motion: Some(Motion::new(vec![step])), ..entry(0, vec![at(10.0), at(20.0)]) };
         let turning = groups.expanded(&moving(MotionStep::Rotate { axis: DVec3::Y, degrees: 20.0 }), &|_| false);

@@ -15,7 +15,7 @@ use super::value::{Located, Rule, Vector, vector};
 use crate::load::access::Access;
 use crate::load::error::{MOST_ERRORS, SceneError, show};
 use crate::load::files::Files;
-use crate::load::image_file::{EmbeddedFile, Picture, PictureSource, Pictures};
+use crate::load::image_file::{DecodedImage, EmbeddedFile, PictureSource, Pictures};
 use crate::load::model::Substitute;
 use crate::load::place::Place;
 use crate::load::volume::PlacedGrid;
@@ -36,15 +36,15 @@ pub struct CachedImage {
     pub integer_bits: Option<u16>,
     /// Repairs of the picture, until they are reported.
     pub change: Option<String>,
-    /// Properties that its header states and nothing uses, until they were told.
+    /// Properties that its header states and nothing uses, until they were reported.
     pub notes: Vec<String>,
     pub hints: Hints,
     /// Other programs see the same in the file.
     pub is_plain: bool,
 }
 
-impl From<Picture> for CachedImage {
-    fn from(Picture { image, integer_bits, change, notes, hints, is_plain }: Picture) -> Self {
+impl From<DecodedImage> for CachedImage {
+    fn from(DecodedImage { image, integer_bits, change, notes, hints, is_plain }: DecodedImage) -> Self {
         Self { image: Arc::new(image), integer_bits, change, notes, hints, is_plain }
     }
 }
@@ -128,7 +128,7 @@ impl<'a> Resolver<'a> {
         Ok(self.scene)
     }
 
-    /// The value, or a note of what is wrong with it. More mistakes than are told are not noted.
+    /// The value, or a note of what is wrong with it. More mistakes than are reported are not noted.
     pub(super) fn note<T>(&mut self, result: Result<T, SceneError>) -> Option<T> {
         let is_full = self.has_enough_errors();
         result
@@ -181,7 +181,7 @@ impl<'a> Resolver<'a> {
         Ok(())
     }
 
-    /// An error about what is stated at `place`; without its place where it will not be told, since to find that takes as long as the file is.
+    /// An error about what is stated at `place`; without its place where it will not be reported, since to find that takes as long as the file is.
     pub(super) fn error(&self, place: &Place, message: impl Into<String>) -> SceneError {
         if self.has_enough_errors() {
             return SceneError::in_file(self.document.name, message);

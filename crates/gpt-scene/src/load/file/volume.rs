@@ -170,7 +170,7 @@ impl Resolver<'_> {
             VolumeError::NoSuchGrid { .. } => name.map_or(&file.place, |name| &name.place),
             VolumeError::Unreadable(_) | VolumeError::WhichGrid { .. } => &file.place,
         };
-        let told = self.error(place, format!("{}: {error}", show(path)));
+        let mistake = self.error(place, format!("{}: {error}", show(path)));
         let help = match error {
             VolumeError::NoSuchGrid { wanted, names } => {
                 did_you_mean_name(wanted, &names.iter().map(String::as_str).collect::<Vec<_>>())
@@ -179,8 +179,8 @@ impl Resolver<'_> {
             VolumeError::Unreadable(_) => None,
         };
         match help {
-            Some(help) => told.with_help(help),
-            None => told,
+            Some(help) => mistake.with_help(help),
+            None => mistake,
         }
     }
 

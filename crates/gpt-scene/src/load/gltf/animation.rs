@@ -28,7 +28,7 @@ const SMALLEST_SCALE: f64 = 1e-5;
 
 /// A part of a transform, and how channels call it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Part {
+enum TargetPath {
     Scale,
     Rotation,
     Translation,
@@ -42,7 +42,7 @@ struct Track {
 }
 
 /// By node, what moves of it.
-type Tracks = HashMap<usize, HashMap<Part, Track>>;
+type Tracks = HashMap<usize, HashMap<TargetPath, Track>>;
 
 impl Importer<'_> {
     /// Makes nodes of what moves. Gives, for each node of the file, the name of the node that takes it along.
@@ -84,7 +84,7 @@ impl Importer<'_> {
         index: usize,
         parents: &[Option<usize>],
         (around, moving): (Option<String>, &HashSet<usize>),
-        tracks: HashMap<Part, Track>,
+        tracks: HashMap<TargetPath, Track>,
     ) -> Result<String, String> {
         let node = &self.root.nodes[index];
         let of_node = |message: String| format!("nodes[{index}]: {message}");
@@ -146,9 +146,9 @@ impl Importer<'_> {
             return Err(format!("there is no nodes[{node}]"));
         }
         let (part, kind) = match channel.target.path.as_str() {
-            "translation" => (Part::Translation, "VEC3"),
-            "rotation" => (Part::Rotation, "VEC4"),
-            "scale" => (Part::Scale, "VEC3"),
+            "translation" => (TargetPath::Translation, "VEC3"),
+            "rotation" => (TargetPath::Rotation, "VEC4"),
+            "scale" => (TargetPath::Scale, "VEC3"),
             "weights" => return self.weights_channel(animation, channel, node, key),
             other => return Err(format!("it moves the property `{other}`")),
         };
@@ -159,7 +159,7 @@ impl Importer<'_> {
             DVec4::new(of(0), of(1), of(2), of(3))
         };
         let mut track = Track { keys: without_repeats(sampled.keys(&value)), is_step: sampled.interpolation == "STEP" };
-        if part == Part::Scale {
+        if part == TargetPath::Scale {
             let nothing = |scale: f64| scale.abs() < SMALLEST_SCALE;
             if track.keys.iter().any(|(_, scale)| scale.truncate().to_array().into_iter().any(nothing)) {
                 self.scene.report.approximate("scale of 0", self.place(key).to_string(), "what it hides is small");
@@ -284,27 +284,27 @@ fn without_repeats(keys: Vec<(f64, DVec4)>) -> Vec<(f64, DVec4)> {
 /// Keyframes of a node that is at rest there, and whether they jump.
 fn keyframes(
     rest: &DAffine3,
-    mut tracks: HashMap<Part, Track>,
+    mut tracks: HashMap<TargetPath, Track>,
     place: &Place,
 ) -> Result<(Vec<Located<TransformKeyEntry>>, bool), String> {
     let is_step = tracks.values().all(|track| track.is_step);
     if !is_step {
         // Jumps among what moves evenly: the old value stays up to just before the next.
         for track in tracks.values_mut().filter(|track| track.is_step) {
-            let held = track.keys.windows(2).flat_map(|pair| {
+            let steps = track.keys.windows(2).flat_map(|pair| {
                 let just_before = pair[1].0 - (1e-3 * (pair[1].0 - pair[0].0)).min(1e-4);
                 [pair[0], (just_before, pair[0].1)]
             });
             let last = track.keys.last().copied();
-            track.keys = held.chain(last).filter(|(time, _)| time.is_finite()).collect();
+            track.keys = steps.chain(last).filter(|(time, _)| time.is_finite()).collect();
         }
     }
     let first = tracks.values().map(|track| track.keys[0].0).fold(f64::INFINITY, f64::min);
     let (scale, rotation, translation) = rest.to_scale_rotation_translation();
     let still = [
-        (Part::Scale, scale.extend(0.0), scale == DVec3::ONE),
-        (Part::Rotation, DVec4::from(rotation), rotation == DQuat::IDENTITY),
-        (Part::Translation, translation.extend(0.0), translation == DVec3::ZERO),
+        (TargetPath::Scale, scale.extend(0.0), scale == DVec3::ONE),
+        (TargetPath::Rotation, DVec4::from(rotation), rotation == DQuat::IDENTITY),
+        (TargetPath::Translation, translation.extend(0.0), translation == DVec3::ZERO),
     ];
     for (part, value, is_nothing) in still {
         if !is_nothing {
@@ -315,20 +315,20 @@ fn keyframes(
     times.sort_by(f64::total_cmp);
     times.dedup();
     let keyframe = |time: f64| {
-        let at = |part: Part| {
+        let at = |part: TargetPath| {
             let keys = &tracks.get(&part)?.keys;
             keys.binary_search_by(|key| key.0.total_cmp(&time)).ok().map(|place| keys[place].1)
         };
         let vector = |value: DVec3| Exactly::<Number, 3>::of(value.to_array());
-        let turn = at(Part::Rotation).map(|rotation| Turn::of(unit(rotation)));
-        let scale = at(Part::Scale).map(|scale| vector(scale.truncate()).map(|_| ScaleEntry(scale.truncate())));
+        let turn = at(TargetPath::Rotation).map(|rotation| Turn::of(unit(rotation)));
+        let scale = at(TargetPath::Scale).map(|scale| vector(scale.truncate()).map(|_| ScaleEntry(scale.truncate())));
         Ok(place.at(TransformKeyEntry {
             frame: None,
             time: Some(Number::of(time)?),
             scale: scale.transpose()?.map(|scale| place.at(scale)),
             rotate: turn.map(|turn| vector(turn.axis)).transpose()?.map(|axis| place.at(axis)),
             degrees: turn.map(|turn| Number::of(turn.degrees)).transpose()?.map(|degrees| place.at(degrees)),
-            translate: at(Part::Translation).map(|offset| vector(offset.truncate())).transpose()?,
+            translate: at(TargetPath::Translation).map(|offset| vector(offset.truncate())).transpose()?,
         }))
     };
     Ok((times.into_iter().map(keyframe).collect::<Result<_, String>>()?, is_step))

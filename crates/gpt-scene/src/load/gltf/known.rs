@@ -319,7 +319,7 @@ pub struct Unread {
 pub fn find_unread(json: &[u8]) -> Vec<Unread> {
     let mut found = Vec::new();
     let walk = Walk { at: At::Object(&ROOT), place: String::new(), found: &mut found };
-    // Mistakes are told where the objects are read.
+    // Mistakes are reported where the objects are read.
     let _ = walk.deserialize(&mut serde_json::Deserializer::from_slice(json));
     found
 }

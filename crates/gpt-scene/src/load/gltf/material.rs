@@ -152,7 +152,7 @@ impl Surface<'_, '_> {
         possible
     }
 
-    /// Three numbers that are held within their range in this way.
+    /// Three numbers that are clamped to their range in this way.
     fn colour_within(&mut self, colour: Spectrum, limits: [f64; 2], key: &str) -> Spectrum {
         let possible = colour.clamp(Spectrum::grey(limits[0]), Spectrum::grey(limits[1]));
         if possible != colour {

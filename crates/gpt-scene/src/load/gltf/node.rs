@@ -188,8 +188,8 @@ impl Importer<'_> {
     /// Nothing moves or bends the node's mesh at frames.
     fn has_mesh_of_others(&self, index: usize, moving: &MovingNodes) -> bool {
         let node = &self.root.nodes[index];
-        let is_bent = node.skin.is_some() || node.weights.is_some() || self.weight_tracks.contains_key(&index);
-        !is_bent && !moving.contains_key(&index)
+        let is_deformed = node.skin.is_some() || node.weights.is_some() || self.weight_tracks.contains_key(&index);
+        !is_deformed && !moving.contains_key(&index)
     }
 
     fn choose_camera(&mut self, placed: &[Placed], wanted: Option<&str>, moving: &MovingNodes) -> Result<(), String> {

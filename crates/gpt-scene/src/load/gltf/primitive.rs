@@ -46,20 +46,20 @@ impl Importer<'_> {
         let mut material = self.material(named)?;
         let Some(base) = self.geometry(&primitive, mode, &key)? else { return Ok(None) };
         let mut deformation = self.deformation(&primitive, base, bending.weights.unwrap_or(&of.weights), bending)?;
-        let is_bent = bending.is_animated();
-        let mut built = if is_bent { Mesh::clone(&deformation.base) } else { deformation.at_rest() };
+        let is_deformed = bending.is_animated();
+        let mut built = if is_deformed { Mesh::clone(&deformation.base) } else { deformation.at_rest() };
         check_range(&built)?;
         complete_normals(&mut built);
         let colours = self.colours(&primitive, material.coordinates, built.positions.len(), &key)?;
         self.coordinates(&primitive, material.coordinates, &mut built, &key)?;
-        let can_be_split = !is_bent && colours.is_none();
+        let can_be_split = !is_deformed && colours.is_none();
         let is_framed = self.frame(&primitive, material.coordinates, &mut built, can_be_split, &key)?;
         let mut form = Form { is_framed, is_outline: self.is_outline(mesh, named, &built), paint: None };
         if form.is_outline {
             self.approximate("outline: a closed surface that looks inward", &key, "the camera alone sees it");
         }
-        if is_bent && built.drop_degenerate_faces() > 0 {
-            self.drop("face without area of a mesh that is bent", &key, "it is left out, at frames where it has area too");
+        if is_deformed && built.drop_degenerate_faces() > 0 {
+            self.drop("face without area of a deformed mesh", &key, "it is left out, at frames where it has area too");
         }
         if built.faces.is_empty() {
             self.drop("primitive without a face that has area", &key, "it is left out");
@@ -82,7 +82,7 @@ impl Importer<'_> {
         }
         built.smooth = !built.normals.is_empty();
         let (triangles, mesh_of_file) = (built.faces.len() as u64, Arc::new(built));
-        let deformation = if is_bent {
+        let deformation = if is_deformed {
             deformation.base = mesh_of_file.clone();
             let rest = deformation.at_rest();
             check_range(&rest)?;

@@ -26,10 +26,10 @@ impl Importer<'_> {
     ) -> Result<bool, String> {
         let material = primitive.material.and_then(|index| self.root.materials.get(index));
         let uses_directions = |of: &str, key: &str| material.and_then(|material| material.extensions.get(of)?.get(key)).is_some();
-        let is_bent = material.is_some_and(|material| material.normal_texture.is_some())
+        let has_normal_map = material.is_some_and(|material| material.normal_texture.is_some())
             || uses_directions("KHR_materials_clearcoat", "clearcoatNormalTexture")
             || uses_directions("KHR_materials_anisotropy", "anisotropyStrength");
-        let Some(index) = accessor(&primitive.attributes, "TANGENT")?.filter(|_| is_bent && !mesh.uvs.is_empty()) else {
+        let Some(index) = accessor(&primitive.attributes, "TANGENT")?.filter(|_| has_normal_map && !mesh.uvs.is_empty()) else {
             return Ok(false);
         };
         let (numbers, _) = self.buffers.numbers(index, &["VEC4"])?;

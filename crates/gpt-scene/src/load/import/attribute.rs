@@ -5,14 +5,14 @@
 
 use std::io::Cursor;
 
-use exr::prelude::{Image, SpecificChannels, Vec2 as Place, WritableImage};
+use exr::prelude::{Image, SpecificChannels, Vec2 as TexelPosition, WritableImage};
 use glam::{Vec2, Vec3};
 
 use crate::load::file::reference::FileOr;
 use crate::load::file::syntax::{ImageEntry, TextureFilterEntry, WrapEntry};
 use crate::load::image_file::EmbeddedFile;
 use crate::load::model::MeshAttribute;
-use crate::load::place;
+use crate::load::place::Place;
 use crate::scene::Mesh;
 
 /// How the blocks of a mesh's triangles lie in a picture.
@@ -70,13 +70,13 @@ impl Blocks {
 
     /// The attribute as a texture with an empty name, which stands at a place of the imported file. `alpha`, where there is one, holds a number
     /// for each value.
-    pub fn texture(&self, attribute: &MeshAttribute, alpha: Option<&[f32]>, at: &place::Place) -> Option<ImageEntry> {
+    pub fn texture(&self, attribute: &MeshAttribute, alpha: Option<&[f32]>, at: &Place) -> Option<ImageEntry> {
         let value = |face: usize, corner: usize| {
             let place = if attribute.of_faces { face } else { self.corners.get(face)?[corner] as usize };
             let alpha = alpha.map_or(Some(1.0), |alpha| alpha.get(place).copied())?;
             attribute.values.get(place).map(|value| value.extend(alpha))
         };
-        let texel = |place: Place<usize>| -> (f32, f32, f32, f32) {
+        let texel = |place: TexelPosition<usize>| -> (f32, f32, f32, f32) {
             let face = place.y() / 2 * self.columns + place.x() / 2;
             let [first, second, third] = [0, 1, 2].map(|corner| value(face, corner).unwrap_or_default());
             let texel = match (place.x() % 2, place.y() % 2) {
@@ -94,7 +94,7 @@ impl Blocks {
         if alpha.is_some() {
             Image::from_channels(size, SpecificChannels::rgba(texel)).write().to_buffered(to).ok()?;
         } else {
-            let texel = |place: Place<usize>| -> (f32, f32, f32) {
+            let texel = |place: TexelPosition<usize>| -> (f32, f32, f32) {
                 let (red, green, blue, _) = texel(place);
                 (red, green, blue)
             };
@@ -142,7 +142,7 @@ mod tests {
         let blocks = Blocks::of(&mut mesh);
         assert_eq!((mesh.positions.len(), mesh.uvs.len(), mesh.faces.len()), (15, 15, 5));
         for attribute in [of_vertices, of_faces] {
-            let keys = blocks.texture(&attribute, None, &place::Place::default()).expect("it can be written");
+            let keys = blocks.texture(&attribute, None, &Place::default()).expect("it can be written");
             assert!(matches!(keys.filter, Some(TextureFilterEntry::Triangle)));
             let FileOr::InMemory(file) = keys.file.value else { panic!("it is in memory") };
             let picture = Pictures::new(Files::default()).read(&PictureSource::Embedded(file), None);

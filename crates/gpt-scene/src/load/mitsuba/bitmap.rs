@@ -93,7 +93,7 @@ impl Converter<'_> {
             Some(file) => file.clone(),
             None => {
                 let space = linear.then_some(ColorSpace::Linear);
-                // A picture that cannot be read is told when the texture is.
+                // A picture that cannot be read is reported when the texture is.
                 let picture = Pictures::new(self.files.clone()).read_file(path, space).ok().map(|picture| picture.image);
                 let wanted = picture.filter(|image| texels == Texels::Normals || is_decoded || !is_grey(image));
                 let bytes = wanted.and_then(|image| as_exr(&image, texels));

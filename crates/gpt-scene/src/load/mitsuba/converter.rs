@@ -39,10 +39,10 @@ pub struct Converter<'a> {
     /// By the plugin, whether it is within one that has two sides, and the mesh whose attributes it looks up.
     pub materials: HashMap<(*const Plugin, bool, Option<usize>), usize>,
     pub both_sides: bool,
-    /// The sensor, where what it does not see is still to be told.
+    /// The sensor, where what it does not see is still to be reported.
     pub clip: Option<Rc<Plugin>>,
     /// Materials that give light, by their keys.
-    pub lamps: HashMap<String, String>,
+    pub emissive_materials: HashMap<String, String>,
     /// The materials of shapes without a BSDF: without light, with it, and of boundaries of media.
     pub default_materials: [Option<usize>; 3],
     pub textures: HashMap<(*const Plugin, bool, Texels, Option<usize>), Input>,

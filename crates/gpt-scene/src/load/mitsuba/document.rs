@@ -10,7 +10,7 @@ use super::limits::{MOST_SHAPES, too_many_shapes};
 use super::nesting::check_depth;
 use super::parameters::Parameters;
 use super::plugin::{Plugin, Within, error_at};
-use super::references::{Draft, Part, References, Target};
+use super::references::{Draft, NestedPlugin, References, Target};
 use super::versions::{modern_kind, modern_name, old_texture_coordinates};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
@@ -195,7 +195,7 @@ impl<'a> Reader<'a> {
             "ref" => {
                 let id = self.needed(source, node, "id")?;
                 let name = self.property_name(source, node)?;
-                around.parts.push(Part { name, target: Target::Named(id, place) });
+                around.parts.push(NestedPlugin { name, target: Target::Named(id, place) });
             }
             "spectrum" | "texture" if node.attribute("type").is_none() && node.attribute("value").is_some() => {
                 self.property(source, node, &mut around.plugin)?;
@@ -207,7 +207,7 @@ impl<'a> Reader<'a> {
                 let name = self.property_name(source, node)?;
                 let draft = self.plugin(source, node, depth)?;
                 let target = self.references.note(draft)?;
-                around.parts.push(Part { name, target });
+                around.parts.push(NestedPlugin { name, target });
             }
             _ => self.property(source, node, &mut around.plugin)?,
         }

@@ -120,7 +120,7 @@ impl Converter<'_> {
 
     /// A colour of light that may be a texture, which is looked up in the plane across a light's direction: `flips` say whether its u and its
     /// v run to the left and down there.
-    fn thrown(&mut self, plugin: &Plugin, name: &str, flips: [bool; 2]) -> Result<Input, SceneError> {
+    fn projected(&mut self, plugin: &Plugin, name: &str, flips: [bool; 2]) -> Result<Input, SceneError> {
         let [x, y] = flips.map(|flipped| if flipped { (-1.0, 1.0) } else { (1.0, 0.0) });
         let map = DAffine2 { matrix2: DMat2::from_diagonal(DVec2::new(x.0, y.0)), translation: DVec2::new(x.1, y.1) };
         let input = self.light_texture(plugin, name, map)?;
@@ -152,7 +152,7 @@ impl Converter<'_> {
         let mut intensity = self.constant(plugin, "intensity")?;
         let mut texture = None;
         if plugin.child("texture").is_some() {
-            match self.thrown(plugin, "texture", [!mirrors, false])? {
+            match self.projected(plugin, "texture", [!mirrors, false])? {
                 Input::Constant(colour) => intensity *= colour,
                 Input::Texture(name, factor) => {
                     intensity *= factor;
@@ -179,7 +179,7 @@ impl Converter<'_> {
     fn projector(&mut self, plugin: &Plugin) -> Result<projector::Keys, SceneError> {
         let scale = PI * plugin.number_or("scale", 1.0)?;
         let Aim { position, direction, up, mirrors } = self.aim(plugin)?;
-        let irradiance = self.thrown(plugin, "irradiance", [mirrors, true])?;
+        let irradiance = self.projected(plugin, "irradiance", [mirrors, true])?;
         let aspect = self.aspect_of(plugin, &irradiance)?;
         let half_width = self.half_width(plugin, aspect)?;
         let (factor, texture) = match irradiance {

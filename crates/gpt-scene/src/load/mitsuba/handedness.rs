@@ -17,16 +17,16 @@ use crate::scene::Mesh;
 
 /// Turns over what is mirrored and has a normal map.
 pub fn turn_mirrored(scene: &mut Description) {
-    let bent = with_normal_maps(scene);
-    if bent.is_empty() {
+    let mapped = with_normal_maps(scene);
+    if mapped.is_empty() {
         return;
     }
     let mut turned = Turned::default();
     let shapes = std::mem::take(&mut scene.file.shape);
-    scene.file.shape = shapes.into_iter().flat_map(|shape| turned.shape(scene, shape, &bent)).collect();
+    scene.file.shape = shapes.into_iter().flat_map(|shape| turned.shape(scene, shape, &mapped)).collect();
     for index in 0..scene.file.group.len() {
         let shapes = std::mem::take(&mut scene.file.group[index].shape);
-        scene.file.group[index].shape = shapes.into_iter().flat_map(|shape| turned.shape(scene, shape, &bent)).collect();
+        scene.file.group[index].shape = shapes.into_iter().flat_map(|shape| turned.shape(scene, shape, &mapped)).collect();
     }
 }
 
@@ -35,17 +35,17 @@ pub fn turn_mirrored(scene: &mut Description) {
 fn with_normal_maps(scene: &Description) -> HashSet<String> {
     let materials = &scene.file.material;
     let has_map = materials.iter().filter(|entry| entry.common().normal_map.is_some());
-    let mut bent: HashSet<String> = has_map.map(|entry| entry.name().to_owned()).collect();
+    let mut mapped: HashSet<String> = has_map.map(|entry| entry.name().to_owned()).collect();
     let mut before = 0;
-    while bent.len() > before {
-        before = bent.len();
+    while mapped.len() > before {
+        before = mapped.len();
         for entry in materials {
-            if entry.parts().iter().any(|part| bent.contains(&part.value)) {
-                bent.insert(entry.name().to_owned());
+            if entry.parts().iter().any(|part| mapped.contains(&part.value)) {
+                mapped.insert(entry.name().to_owned());
             }
         }
     }
-    bent
+    mapped
 }
 
 /// The parts of a mesh, each with whether it was turned over.
@@ -62,9 +62,14 @@ struct Turned {
 
 impl Turned {
     /// The shape as it is, or in up to two parts.
-    fn shape(&mut self, scene: &mut Description, shape: Located<ShapeEntry>, bent: &HashSet<String>) -> Vec<Located<ShapeEntry>> {
+    fn shape(
+        &mut self,
+        scene: &mut Description,
+        shape: Located<ShapeEntry>,
+        mapped: &HashSet<String>,
+    ) -> Vec<Located<ShapeEntry>> {
         let ShapeEntry::Mesh(keys) = &shape.value else { return vec![shape] };
-        let Some(material) = keys.material.clone().filter(|name| bent.contains(&name.value)) else { return vec![shape] };
+        let Some(material) = keys.material.clone().filter(|name| mapped.contains(&name.value)) else { return vec![shape] };
         let Some(FileOr::InMemory(mesh)) = keys.file.as_ref().map(|file| &file.value) else { return vec![shape] };
         let map = keys.transform.as_ref().and_then(|transform| transform.value.map());
         let parts = self.mesh(mesh, map.is_some_and(|map| map.matrix3.determinant() < 0.0));

@@ -133,7 +133,7 @@ impl Converter<'_> {
         Ok(())
     }
 
-    /// Reads all files that shapes name, on all cores. What cannot be read is told when its shape is made.
+    /// Reads all files that shapes name, on all cores. What cannot be read is reported when its shape is made.
     pub fn read_side_by_side(&mut self, root: &Rc<Plugin>) {
         let mut wanted: HashSet<MeshKey> = HashSet::new();
         let mut seen: HashSet<*const Plugin> = HashSet::new();

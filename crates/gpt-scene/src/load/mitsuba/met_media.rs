@@ -27,7 +27,7 @@ pub struct MetMedia {
     pub in_group: bool,
     /// Materials that enclose a medium, by the names of the material without it and of the medium.
     pub filled: HashMap<(String, String), String>,
-    /// Materials that light gets into and is bent by, by their names.
+    /// Materials that light gets into and is refracted by, by their names.
     pub bodies: HashMap<String, bool>,
     /// The name of a medium that neither takes nor gives.
     pub clear: Option<String>,

@@ -145,8 +145,8 @@ const MEASURED: [Measured; 11] = [
     Measured { name: "vn", n: [2.3890, 2.2342, 2.1363], k: [2.5452, 2.1652, 1.7895] },
 ];
 
-/// n and k of linear Rec.709 under a light of equal energy, as Mitsuba 3.9.1 tells them of its materials in its RGB variants.
-struct Told {
+/// n and k of linear Rec.709 under a light of equal energy, as Mitsuba 3.9.1 prints them of its materials in its RGB variants.
+struct MitsubaMetal {
     name: &'static str,
     n: [f64; 3],
     k: [f64; 3],
@@ -154,28 +154,28 @@ struct Told {
 
 /// By Palik 1998, Handbook of Optical Constants of Solids, but for diamond (Phillip and Taft 1964), vanadium (Johnson and Christy 1974) and niobium
 /// (Weaver, Lynch and Olson 1973, Phys. Rev. B 7, 4311).
-const TOLD: [Told; 21] = [
-    Told { name: "alas", n: [3.6053, 3.2329, 2.2163], k: [0.0007, 0.0, 0.0075] },
-    Told { name: "alsb", n: [0.0, 4.1394, 4.6693], k: [0.0, 0.0940, 1.3006] },
-    Told { name: "cr", n: [4.3697, 2.9165, 1.6549], k: [5.2065, 4.2313, 3.7547] },
-    Told { name: "csi", n: [2.1449, 1.7023, 1.6624], k: [0.0; 3] },
-    Told { name: "cu2o", n: [3.5518, 2.9499, 2.7519], k: [0.1142, 0.1939, 0.6061] },
-    Told { name: "cuo", n: [3.2475, 2.4478, 2.2102], k: [0.5211, 0.5700, 0.7222] },
-    Told { name: "d-c", n: [2.7087, 2.3188, 2.2289], k: [0.0; 3] },
-    Told { name: "hgte", n: [4.7790, 3.2312, 2.6599], k: [1.6316, 1.5808, 1.7293] },
-    Told { name: "ir", n: [3.0863, 2.0822, 1.6179], k: [5.5922, 4.0671, 3.2673] },
-    Told { name: "mgo", n: [2.0896, 1.6507, 1.5949], k: [0.0; 3] },
-    Told { name: "mo", n: [4.4840, 3.5251, 2.7763], k: [4.1114, 3.4208, 3.1506] },
-    Told { name: "nb", n: [3.4201, 2.7901, 2.3956], k: [3.4414, 2.7377, 2.5798] },
-    Told { name: "ni", n: [2.3673, 1.6634, 1.4671], k: [4.4988, 3.0502, 2.3454] },
-    Told { name: "se", n: [4.0583, 2.8429, 2.8209], k: [0.7540, 0.6384, 0.5218] },
-    Told { name: "sic", n: [3.1723, 2.5260, 2.4794], k: [0.0; 3] },
-    Told { name: "snte", n: [4.5242, 1.9816, 1.2816], k: [0.0; 3] },
-    Told { name: "ta", n: [2.0627, 2.3929, 2.6279], k: [2.4084, 1.7415, 1.9470] },
-    Told { name: "te", n: [7.3902, 4.4821, 2.6371], k: [3.2560, 3.5271, 3.2921] },
-    Told { name: "thf4", n: [1.8307, 1.4422, 1.3876], k: [0.0; 3] },
-    Told { name: "tio2", n: [3.4566, 2.8017, 2.9052], k: [0.0001, 0.0, 0.0007] },
-    Told { name: "v", n: [4.2776, 3.5129, 2.7611], k: [3.4913, 2.8895, 3.1115] },
+const MITSUBA_METALS: [MitsubaMetal; 21] = [
+    MitsubaMetal { name: "alas", n: [3.6053, 3.2329, 2.2163], k: [0.0007, 0.0, 0.0075] },
+    MitsubaMetal { name: "alsb", n: [0.0, 4.1394, 4.6693], k: [0.0, 0.0940, 1.3006] },
+    MitsubaMetal { name: "cr", n: [4.3697, 2.9165, 1.6549], k: [5.2065, 4.2313, 3.7547] },
+    MitsubaMetal { name: "csi", n: [2.1449, 1.7023, 1.6624], k: [0.0; 3] },
+    MitsubaMetal { name: "cu2o", n: [3.5518, 2.9499, 2.7519], k: [0.1142, 0.1939, 0.6061] },
+    MitsubaMetal { name: "cuo", n: [3.2475, 2.4478, 2.2102], k: [0.5211, 0.5700, 0.7222] },
+    MitsubaMetal { name: "d-c", n: [2.7087, 2.3188, 2.2289], k: [0.0; 3] },
+    MitsubaMetal { name: "hgte", n: [4.7790, 3.2312, 2.6599], k: [1.6316, 1.5808, 1.7293] },
+    MitsubaMetal { name: "ir", n: [3.0863, 2.0822, 1.6179], k: [5.5922, 4.0671, 3.2673] },
+    MitsubaMetal { name: "mgo", n: [2.0896, 1.6507, 1.5949], k: [0.0; 3] },
+    MitsubaMetal { name: "mo", n: [4.4840, 3.5251, 2.7763], k: [4.1114, 3.4208, 3.1506] },
+    MitsubaMetal { name: "nb", n: [3.4201, 2.7901, 2.3956], k: [3.4414, 2.7377, 2.5798] },
+    MitsubaMetal { name: "ni", n: [2.3673, 1.6634, 1.4671], k: [4.4988, 3.0502, 2.3454] },
+    MitsubaMetal { name: "se", n: [4.0583, 2.8429, 2.8209], k: [0.7540, 0.6384, 0.5218] },
+    MitsubaMetal { name: "sic", n: [3.1723, 2.5260, 2.4794], k: [0.0; 3] },
+    MitsubaMetal { name: "snte", n: [4.5242, 1.9816, 1.2816], k: [0.0; 3] },
+    MitsubaMetal { name: "ta", n: [2.0627, 2.3929, 2.6279], k: [2.4084, 1.7415, 1.9470] },
+    MitsubaMetal { name: "te", n: [7.3902, 4.4821, 2.6371], k: [3.2560, 3.5271, 3.2921] },
+    MitsubaMetal { name: "thf4", n: [1.8307, 1.4422, 1.3876], k: [0.0; 3] },
+    MitsubaMetal { name: "tio2", n: [3.4566, 2.8017, 2.9052], k: [0.0001, 0.0, 0.0007] },
+    MitsubaMetal { name: "v", n: [4.2776, 3.5129, 2.7611], k: [3.4913, 2.8895, 3.1115] },
 ];
 
 /// Converts a spectrum under daylight to one under a light of equal energy. Mitsuba integrates the constants
@@ -209,7 +209,7 @@ pub fn conductor(name: &str) -> Option<Metal> {
         "al" | "aluminium" | "aluminum" => return preset(MetalEntry::Aluminium),
         _ => {}
     }
-    if let Some(Told { n, k, .. }) = TOLD.iter().find(|one| one.name == plain) {
+    if let Some(MitsubaMetal { n, k, .. }) = MITSUBA_METALS.iter().find(|one| one.name == plain) {
         // An index of 0 is a perfect mirror, which a small one is as well.
         return Some(Metal::Constants { eta: Spectrum::from_rgb(*n).max(Spectrum::grey(1e-4)), k: Spectrum::from_rgb(*k) });
     }
@@ -226,13 +226,13 @@ pub fn conductor(name: &str) -> Option<Metal> {
 mod tests {
     use super::*;
 
-    /// Mitsuba 3.9.1 tells 4.19, 3.19, 2.78 and 3.84, 3.01, 2.87 of its beryllium.
+    /// Mitsuba 3.9.1 prints 4.19, 3.19, 2.78 and 3.84, 3.01, 2.87 of its beryllium.
     #[test]
     fn models_are_near_what_was_measured() {
         let metal = METALS.iter().find(|metal| metal.name == "be").expect("it is in the table");
-        for (part, told) in [(0, [4.1850, 3.1850, 2.7841]), (1, [3.8355, 3.0101, 2.8690])] {
+        for (part, printed) in [(0, [4.1850, 3.1850, 2.7841]), (1, [3.8355, 3.0101, 2.8690])] {
             let found = integrate(Role::Light, |wavelength| [metal.index(wavelength).0, metal.index(wavelength).1][part]);
-            assert!((found / Spectrum::from_rgb(told) - Spectrum::WHITE).map(f64::abs).max_component() < 0.1, "{found}");
+            assert!((found / Spectrum::from_rgb(printed) - Spectrum::WHITE).map(f64::abs).max_component() < 0.1, "{found}");
         }
     }
 

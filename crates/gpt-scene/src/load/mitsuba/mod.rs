@@ -68,7 +68,7 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         materials: HashMap::new(),
         both_sides: false,
         clip: None,
-        lamps: HashMap::new(),
+        emissive_materials: HashMap::new(),
         default_materials: [None; 3],
         textures: HashMap::new(),
         made_pictures: HashMap::new(),

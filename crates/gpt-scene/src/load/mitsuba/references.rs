@@ -13,12 +13,12 @@ use crate::load::place::Origin;
 #[derive(Debug)]
 pub struct Draft {
     pub plugin: Plugin,
-    pub parts: Vec<Part>,
+    pub parts: Vec<NestedPlugin>,
 }
 
 /// A plugin within another one.
 #[derive(Debug)]
-pub struct Part {
+pub struct NestedPlugin {
     /// The name that the plugin around gives it; empty where there is none.
     pub name: String,
     pub target: Target,
@@ -104,7 +104,7 @@ impl References {
         if depth > DEEPEST {
             return Err(too_deep(&plugin));
         }
-        for Part { name, target } in parts {
+        for NestedPlugin { name, target } in parts {
             let part = match target {
                 Target::Written(draft) => self.put_together(*draft, depth + 1)?,
                 Target::Named(id, place) => self.named(id, &place, depth + 1)?,

@@ -42,7 +42,7 @@ impl Converter<'_> {
         self.input(plugin, name, Role::Surface, Texels::Colours, default)
     }
 
-    /// A number for which there can be no texture here: the mean of one is taken, and told.
+    /// A number for which there can be no texture here: the mean of one is taken, and reported.
     pub fn plain_number(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<f64, SceneError> {
         let input = self.scalar(plugin, name, default)?;
         let mean = self.mean(&input);

@@ -9,7 +9,7 @@ use super::mtl::Libraries;
 use super::statements::{FREE_FORM, HARMLESS, is_statement};
 use super::vertices::{Kind, Vertices};
 use crate::load::mends::Mends;
-use crate::load::model::{ModelFile, Part, Substitute};
+use crate::load::model::{ModelFile, ModelPart, Substitute};
 use crate::load::polygon::triangulate;
 use crate::load::printable::short_list;
 use crate::load::spelling::lines::{Statements, before_spaced_comment, first_word, trimmed, without_comment, words};
@@ -246,7 +246,7 @@ impl<'a> Faces<'a> {
         u32::try_from(from_start).ok().filter(|&place| (place as usize) < count)
     }
 
-    /// The index, unless nothing can be read there; that is told once.
+    /// The index, unless nothing can be read there; that is reported once.
     fn readable(&mut self, kind: Kind, index: Option<u32>) -> Option<u32> {
         let index = index?;
         let is_read = match kind {
@@ -286,7 +286,7 @@ impl<'a> Faces<'a> {
         let PartInTheMaking { material, mut mesh, .. } = std::mem::take(&mut self.part);
         self.left_out.without_area += mesh.drop_degenerate_faces();
         if !mesh.faces.is_empty() {
-            self.file.parts.push(Part { mesh, material });
+            self.file.parts.push(ModelPart { mesh, material });
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Wavefront OBJ files and their MTL materials.
 //!
 //! Programs read what they know of a line and pass over the rest, and so does this reader: what a statement says wrongly is mended or left out, counted,
-//! and told with its line ([`Mends`]). A first walk over the text takes the vertices (`vertices`), a second the faces (`faces`), which may name
+//! and reported with its line ([`Mends`]). A first walk over the text takes the vertices (`vertices`), a second the faces (`faces`), which may name
 //! vertices that come later.
 
 mod faces;

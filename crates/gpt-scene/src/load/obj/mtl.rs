@@ -113,8 +113,8 @@ impl Libraries {
 
     fn add(&mut self, file: &Path, bytes: &[u8]) {
         let (text, encoding) = encoding::decode(bytes);
-        let told = encoding.map(|encoding| format!("{}: it is not in UTF-8, and read as {encoding}", show(file)));
-        self.warnings.extend(told);
+        let reported = encoding.map(|encoding| format!("{}: it is not in UTF-8, and read as {encoding}", show(file)));
+        self.warnings.extend(reported);
         let mut library = Library::default();
         for (line, statement) in Statements::new(&text, is_statement) {
             library.statement(line, &statement);
@@ -384,17 +384,18 @@ mod tests {
     /// The first material of a library, and what was mended.
     fn material(keys: &str) -> (MtlMaterial, Vec<String>) {
         let mut libraries = read(&format!("newmtl a\n{keys}\n"));
-        let told = libraries.substitutes.iter().map(|(_, mend)| format!("{}: {}", mend.line.unwrap_or(0), mend.what)).collect();
-        (libraries.materials.swap_remove(0), told)
+        let reported =
+            libraries.substitutes.iter().map(|(_, mend)| format!("{}: {}", mend.line.unwrap_or(0), mend.what)).collect();
+        (libraries.materials.swap_remove(0), reported)
     }
 
     #[test]
     fn what_is_right_needs_no_mend() {
-        let (material, told) = material(
+        let (material, reported) = material(
             "\tKd .5 0 0 # red\nKs 0.5\nKe 1 2 3\nTf 1 1 1\r\nNs 1e3\nNi 1.5 \nd 0.5\nillum 2 # phong\nmap_Kd a.png\n\nKa 1 1\nPr .1\n\
              bump -bm 2 h.png",
         );
-        assert!(told.is_empty(), "{told:?}");
+        assert!(reported.is_empty(), "{reported:?}");
         assert_eq!(material.colour("Kd"), Some(Spectrum::new(0.5, 0.0, 0.0)));
         assert_eq!(material.colour("Ks"), Some(Spectrum::grey(0.5)));
         assert_eq!((material.number("Ns"), material.number("Ni"), material.number("d")), (Some(1000.0), Some(1.5), Some(0.5)));
@@ -405,8 +406,8 @@ mod tests {
 
     #[test]
     fn keys_are_known_in_any_case() {
-        let (material, told) = material("kd 1 0 0\nMAP_KD a.png\nMap_bump h.png\nNEWMTL b");
-        assert!(told.is_empty(), "{told:?}");
+        let (material, reported) = material("kd 1 0 0\nMAP_KD a.png\nMap_bump h.png\nNEWMTL b");
+        assert!(reported.is_empty(), "{reported:?}");
         assert_eq!(material.colour("Kd"), Some(Spectrum::new(1.0, 0.0, 0.0)));
         assert_eq!(material.maps.len(), 2);
     }
@@ -430,8 +431,8 @@ mod tests {
         ];
         for (text, expected) in rows {
             assert_eq!(colour(text), expected, "{text}");
-            let told = material(text).1;
-            assert!(told.len() == 1 && told[0].starts_with("2: ") && told[0].contains(text), "{text}: {told:?}");
+            let reported = material(text).1;
+            assert!(reported.len() == 1 && reported[0].starts_with("2: ") && reported[0].contains(text), "{text}: {reported:?}");
         }
         let number = |text: &str, key: MtlKey| material(text).0.number(key);
         let rows: [(&str, MtlKey, Option<f64>); 10] = [
@@ -459,14 +460,14 @@ mod tests {
     #[test]
     fn xyz_is_a_colour_of_cie() {
         // The white of Rec.709 is D65.
-        let (white, told) = material("Kd xyz 0.9504559 1.0 1.0890577");
-        assert!(told.is_empty(), "{told:?}");
+        let (white, reported) = material("Kd xyz 0.9504559 1.0 1.0890577");
+        assert!(reported.is_empty(), "{reported:?}");
         assert!(
             white.colour("Kd").is_some_and(|colour| (colour - Spectrum::WHITE).map(f64::abs).max_component() < 1e-4),
             "{white:?}"
         );
-        let (green, told) = material("Kd xyz 0 1 0");
-        assert_eq!(told.len(), 1);
+        let (green, reported) = material("Kd xyz 0 1 0");
+        assert_eq!(reported.len(), 1);
         assert!(green.colour("Kd").is_some_and(|colour| colour.r() == 0.0 && colour.g() > 1.8), "{green:?}");
     }
 
@@ -487,8 +488,8 @@ mod tests {
 
     #[test]
     fn comments_and_continued_lines() {
-        let (material, told) = material("# a \\\nKd 1 0 \\\n0\nmap_Kd C:\\textures\\\nNs 3");
-        assert!(told.is_empty(), "{told:?}");
+        let (material, reported) = material("# a \\\nKd 1 0 \\\n0\nmap_Kd C:\\textures\\\nNs 3");
+        assert!(reported.is_empty(), "{reported:?}");
         assert_eq!(material.colour("Kd"), Some(Spectrum::new(1.0, 0.0, 0.0)));
         assert_eq!(material.number("Ns"), Some(3.0));
     }

@@ -16,7 +16,7 @@ fn read_bytes(bytes: &[u8]) -> Result<ModelFile, String> {
 /// All faces as one mesh, and what was mended.
 fn mended(text: &str) -> (Mesh, Vec<(Option<usize>, String)>) {
     let file = read_bytes(text.as_bytes()).unwrap_or_else(|error| panic!("{error}: {text}"));
-    let told = file.substitutes.into_iter().map(|(_, mend)| (mend.line, mend.what)).collect();
+    let reported = file.substitutes.into_iter().map(|(_, mend)| (mend.line, mend.what)).collect();
     let mut mesh = Mesh::default();
     for mut part in file.parts {
         if part.mesh.normals.is_empty() {
@@ -24,7 +24,7 @@ fn mended(text: &str) -> (Mesh, Vec<(Option<usize>, String)>) {
         }
         mesh.append(part.mesh);
     }
-    (mesh, told)
+    (mesh, reported)
 }
 
 fn area(mesh: &Mesh) -> f32 {
@@ -76,8 +76,8 @@ fn statements_are_spelled_in_many_ways() {
         lines("mg 1 2\nlod 3\nbevel on\nf 1 2 3 4"),
     ];
     for text in cases {
-        let (mesh, told) = mended(&text);
-        assert!((area(&mesh) - 4.0).abs() < 1e-6 && told.is_empty(), "{text:?}: {} {told:?}", area(&mesh));
+        let (mesh, reported) = mended(&text);
+        assert!((area(&mesh) - 4.0).abs() < 1e-6 && reported.is_empty(), "{text:?}: {} {reported:?}", area(&mesh));
     }
     let wide: Vec<u8> = lines("f 1 2 3 4").encode_utf16().flat_map(u16::to_le_bytes).collect();
     assert!(read_bytes(&wide).is_ok_and(|file| file.substitutes.is_empty()));
@@ -85,8 +85,8 @@ fn statements_are_spelled_in_many_ways() {
 }
 
 #[test]
-fn one_odd_statement_is_mended_and_told_with_its_line() {
-    // Statements after the quad's four vertices, the line that is told, and a part of what is said; the quad is there with all of its area.
+fn one_odd_statement_is_mended_and_reported_with_its_line() {
+    // Statements after the quad's four vertices, the line that is reported, and a part of what is said; the quad is there with all of its area.
     let whole: [(&str, usize, &str); 22] = [
         ("vn nan 0 1\nf 1//1 2//1 3//1 4//1", 5, "normals"),
         ("vn 0 1\nf 1//1 2//1 3//1 4//1", 5, "normals"),
@@ -112,15 +112,15 @@ fn one_odd_statement_is_mended_and_told_with_its_line() {
         ("surf 0 1 0 1 1 2 3 4\nf 1 2 3 4", 5, "free-form"),
     ];
     for (text, line, said) in whole {
-        let (mesh, told) = mended(&format!("{Q}{text}\n"));
+        let (mesh, reported) = mended(&format!("{Q}{text}\n"));
         assert!((area(&mesh) - 4.0).abs() < 1e-6, "{text:?}: {}", area(&mesh));
-        let is_told = told.first().is_some_and(|(at, what)| *at == Some(line) && what.contains(said));
-        assert!(is_told, "{text:?}: {told:?}");
+        let is_reported = reported.first().is_some_and(|(at, what)| *at == Some(line) && what.contains(said));
+        assert!(is_reported, "{text:?}: {reported:?}");
         assert!(mesh.normals.iter().all(|normal| normal.is_finite()) && mesh.uvs.iter().all(|uv| uv.is_finite()));
     }
     for text in ["call a.obj", "csh ls", "xyzzy 1 2", "curv 0 1 1 2", "p x y\nmtllib"] {
-        let (mesh, told) = mended(&format!("{Q}f 1 2 3 4\n{text}\n"));
-        assert!(area(&mesh) == 4.0 && told.len() == 1, "{text}: {told:?}");
+        let (mesh, reported) = mended(&format!("{Q}f 1 2 3 4\n{text}\n"));
+        assert!(area(&mesh) == 4.0 && reported.len() == 1, "{text}: {reported:?}");
     }
     for (text, expected) in [
         ("v -1,0 -1,0 0,0\nv 1,0 -1,0 0,0\nv 1,0 1,0 0,0\nv -1,0 1,0 0,0", "odd spelling"),
@@ -130,29 +130,29 @@ fn one_odd_statement_is_mended_and_told_with_its_line() {
         ("v -1 -1 0 0\nv 1 -1 0 0\nv 1 1 0 nan\nv -1 1 0", "weight"),
         ("v -1 -1 0 1 2\nv 1 -1 0\nv 1 1 0\nv -1 1 0 1 1 1 1 1 1", "numbers behind"),
     ] {
-        let (mesh, told) = mended(&format!("{text}\nf 1 2 3 4\n"));
+        let (mesh, reported) = mended(&format!("{text}\nf 1 2 3 4\n"));
         assert!((area(&mesh) - 4.0).abs() < 1e-6, "{text}: {}", area(&mesh));
-        assert!(told.len() == 1 && told[0].0.is_some() && told[0].1.contains(expected), "{text}: {told:?}");
+        assert!(reported.len() == 1 && reported[0].0.is_some() && reported[0].1.contains(expected), "{text}: {reported:?}");
     }
 }
 
 #[test]
 fn mends_are_counted() {
-    let (mesh, told) = mended(&format!("{Q}v nan 0 0\nf 1 2 3 4\nf 1 2\nf 1 2 5\nf 5 1 2\nf 3 4\n"));
+    let (mesh, reported) = mended(&format!("{Q}v nan 0 0\nf 1 2 3 4\nf 1 2\nf 1 2 5\nf 5 1 2\nf 3 4\n"));
     assert_eq!(area(&mesh), 4.0);
     let expected = [
         "faces with a corner whose position is no three numbers within 1e18 are left out: `v nan 0 0`; 2 in all",
         "faces of fewer than three corners are left out: `f 1 2`; 2 in all",
     ];
-    assert_eq!(told.iter().map(|(_, what)| what.as_str()).collect::<Vec<_>>(), expected);
+    assert_eq!(reported.iter().map(|(_, what)| what.as_str()).collect::<Vec<_>>(), expected);
 }
 
 #[test]
 fn what_only_some_corners_have_is_made_for_the_others() {
     // Normals of both objects stay, though the second one has some corners without.
     let text = format!("{Q}vn 0 0 1\nvn 1 0 0\no a\nf 1//1 2//1 3//1\no b\nf 1//2 3//2 4\n");
-    let (mesh, told) = mended(&text);
-    assert!(told.is_empty());
+    let (mesh, reported) = mended(&text);
+    assert!(reported.is_empty());
     let normals: Vec<glam::Vec3> = mesh.faces.iter().flatten().map(|&corner| mesh.normals[corner as usize]).collect();
     let (x, z) = (glam::Vec3::X, glam::Vec3::Z);
     assert_eq!(normals, [z, z, z, x, x, glam::Vec3::ZERO]);
@@ -190,8 +190,8 @@ fn what_is_not_rendered_is_said() {
 #[test]
 fn concave_polygons_are_cut() {
     let text = "v 0 0 0\nv 2 2 0\nv 0 1 0\nv -2 2 0\nvn 0 0 1\nf 2//1 3//1 4//1 1//1\n";
-    let (mesh, told) = mended(text);
-    assert_eq!((area(&mesh), mesh.faces.len(), told.len()), (2.0, 2, 0));
+    let (mesh, reported) = mended(text);
+    assert_eq!((area(&mesh), mesh.faces.len(), reported.len()), (2.0, 2, 0));
     assert!(mesh.normals.iter().all(|normal| *normal == glam::Vec3::Z));
 }
 

@@ -236,15 +236,15 @@ mod tests {
     #[test]
     fn names_may_look_like_options_numbers_and_comments() {
         for name in ["a -s 2.png", "-clamp", "wood #2.png", "a -bm 1", "7", "-s 2 wood.png"] {
-            let (map, told) = parse(name, &[name]);
-            assert_eq!((map.file.as_str(), told.len()), (name, 0), "{told:?}");
+            let (map, reported) = parse(name, &[name]);
+            assert_eq!((map.file.as_str(), reported.len()), (name, 0), "{reported:?}");
         }
         assert_eq!(parse("-s 2 3 7", &["7"]).0.file, "7");
         assert_eq!(parse("wood #2.png", &[]).0.file, "wood");
     }
 
     #[test]
-    fn an_odd_option_is_left_out_and_told() {
+    fn an_odd_option_is_left_out_and_reported() {
         for (written, file) in [
             ("-nonsense 3 wood.png", "wood.png"),
             ("-s wood.png", "wood.png"),
@@ -258,8 +258,8 @@ mod tests {
             ("wood.png -s", "wood.png"),
             ("-clamp on -bm", ""),
         ] {
-            let (map, told) = parse(written, &[]);
-            assert_eq!((map.file.as_str(), told.len()), (file, 1), "{written}: {told:?}");
+            let (map, reported) = parse(written, &[]);
+            assert_eq!((map.file.as_str(), reported.len()), (file, 1), "{written}: {reported:?}");
         }
     }
 }

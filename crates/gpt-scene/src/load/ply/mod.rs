@@ -1,7 +1,7 @@
 //! PLY files (Turk 1994): text or binary in both byte orders, packed by gzip or not.
 //!
 //! Vertices have positions, normals and texture coordinates; faces are triangles and polygons, or strips of triangles as in the Stanford models.
-//! Everything else is read over and named in a warning. What a file says wrongly is mended or left out, counted and told ([`Mends`]).
+//! Everything else is read over and named in a warning. What a file says wrongly is mended or left out, counted and reported ([`Mends`]).
 
 mod data;
 mod elements;
@@ -20,7 +20,7 @@ use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_MODEL_BYTES};
 use crate::load::memory;
 use crate::load::mends::Mends;
-use crate::load::model::{FARTHEST, MeshAttribute, ModelFile, Part};
+use crate::load::model::{FARTHEST, MeshAttribute, ModelFile, ModelPart};
 use crate::load::polygon::triangulate;
 use crate::load::printable::short_list;
 use crate::scene::Mesh;
@@ -80,7 +80,7 @@ struct Model {
     /// Corners of all faces one after the other, and where each face ends.
     corners: Vec<u32>,
     ends: Vec<usize>,
-    /// Faces of which it is told already that they are left out.
+    /// Faces of which it is reported already that they are left out.
     spoiled: HashSet<usize>,
     /// Material number of each face, where the file has them.
     groups: Option<Vec<u32>>,
@@ -362,7 +362,7 @@ impl Model {
             attribute.values = polygons.iter().map(|&face| of_polygons.get(face).copied().unwrap_or_default()).collect();
         }
         leave_out_unread(&mut mesh, &mut attributes);
-        let parts = vec![Part { mesh, material: None }];
+        let parts = vec![ModelPart { mesh, material: None }];
         let substitutes = mends.into_iter().map(|mend| (Default::default(), mend)).collect();
         Ok(ModelFile { parts, face_groups, attributes, warnings, substitutes, ..ModelFile::default() })
     }

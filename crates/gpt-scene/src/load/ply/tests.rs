@@ -139,8 +139,8 @@ fn what_leaves_nothing_to_render_is_refused() {
 /// The mesh, and what was mended.
 fn mended(bytes: &[u8]) -> (Mesh, Vec<(Option<usize>, String)>) {
     let mut file = read_bytes(bytes).unwrap_or_else(|error| panic!("{error}"));
-    let told = file.substitutes.into_iter().map(|(_, mend)| (mend.line, mend.what)).collect();
-    (file.parts.remove(0).mesh, told)
+    let reported = file.substitutes.into_iter().map(|(_, mend)| (mend.line, mend.what)).collect();
+    (file.parts.remove(0).mesh, reported)
 }
 
 /// Data of one meaning are read without a word.
@@ -173,15 +173,15 @@ fn text_may_lie_in_any_lines() {
             .collect(),
     ];
     for bytes in cases {
-        let (mesh, told) = mended(&bytes);
+        let (mesh, reported) = mended(&bytes);
         let of = String::from_utf8_lossy(&bytes);
         assert_eq!((&mesh.positions, &mesh.faces), (&plain.positions, &plain.faces), "{of}");
-        assert!(told.is_empty(), "{told:?} {of}");
+        assert!(reported.is_empty(), "{reported:?} {of}");
     }
 }
 
 #[test]
-fn one_odd_number_is_mended_and_told_with_its_line() {
+fn one_odd_number_is_mended_and_reported_with_its_line() {
     let of_vertices = "property float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\nelement face";
     let header = HEADER.replace("element face", of_vertices);
     let data = |second: &str, face: &str| {
@@ -202,14 +202,14 @@ fn one_odd_number_is_mended_and_told_with_its_line() {
         (good, "4 0 1 2 3\n1 2 3", 2, 21, "what follows the last element"),
     ];
     for (second, face, faces, line, said) in cases {
-        let (mesh, told) = mended(&data(second, face));
-        assert_eq!(mesh.faces.len(), faces, "{second}, {face}: {told:?}");
-        let as_expected = match told.as_slice() {
+        let (mesh, reported) = mended(&data(second, face));
+        assert_eq!(mesh.faces.len(), faces, "{second}, {face}: {reported:?}");
+        let as_expected = match reported.as_slice() {
             [] => said.is_empty(),
             [(at, what)] => *at == Some(line) && what.contains(said),
             _ => false,
         };
-        assert!(as_expected, "{second}, {face}: {told:?}");
+        assert!(as_expected, "{second}, {face}: {reported:?}");
         assert!(mesh.positions.iter().all(|position| position.is_finite()));
         assert!(mesh.uvs.iter().all(|uv| uv.is_finite()) && mesh.normals.iter().all(|normal| normal.is_finite()));
         assert_eq!(mesh.normals.len(), mesh.positions.len());
@@ -220,9 +220,9 @@ fn one_odd_number_is_mended_and_told_with_its_line() {
 fn faces_that_cannot_be_are_left_out_and_counted() {
     let header = HEADER.replace("face 1", "face 6");
     let faces = "3 0 1 2\n2 0 1\n3 0 1 9\n3 0 1 -1\n3 0 1\n1 3";
-    let (mesh, told) = mended(&text(&header, &format!("{SQUARE}{faces}\n")));
+    let (mesh, reported) = mended(&text(&header, &format!("{SQUARE}{faces}\n")));
     assert_eq!(mesh.faces, [[0, 1, 2]]);
-    let said: Vec<String> = told.iter().map(|(_, what)| what.clone()).collect();
+    let said: Vec<String> = reported.iter().map(|(_, what)| what.clone()).collect();
     assert_eq!(
         said,
         [
@@ -236,28 +236,28 @@ fn faces_that_cannot_be_are_left_out_and_counted() {
 #[test]
 fn vertices_that_cannot_be_read_go_with_their_faces() {
     let header = HEADER.replace("vertex 4", "vertex 5").replace("face 1", "face 2");
-    let (mesh, told) = mended(&text(&header, "0 0 0\nnan nan nan\n1 0 0\n1 1 0\n0 1 0\n4 0 2 3 4\n3 0 1 2\n"));
+    let (mesh, reported) = mended(&text(&header, "0 0 0\nnan nan nan\n1 0 0\n1 1 0\n0 1 0\n4 0 2 3 4\n3 0 1 2\n"));
     assert_eq!((mesh.positions.len(), area(&mesh)), (4, 1.0));
     let what =
         "faces with a corner whose position is no three numbers within 1e18 are left out: face 1 uses vertex 1 (counted from 0)";
-    assert_eq!(told, [(None, what.to_owned())]);
+    assert_eq!(reported, [(None, what.to_owned())]);
 }
 
 #[test]
 fn what_is_there_of_a_file_that_ends_early_is_taken() {
     let header = HEADER.replace("face 1", "face 2");
-    let (mesh, told) = mended(&text(&header, &format!("{SQUARE}3 0 1 2\n3 0")));
+    let (mesh, reported) = mended(&text(&header, &format!("{SQUARE}3 0 1 2\n3 0")));
     assert_eq!(mesh.faces.len(), 1);
-    assert!(told.iter().any(|(_, what)| what.contains("elements `face`") || what.contains("not whole")), "{told:?}");
-    let (mesh, told) = mended(&text(&header, &format!("{SQUARE}3 0 1 2\n")));
-    assert_eq!((mesh.faces.len(), told[0].1.contains("1 of its 2 elements `face`")), (1, true), "{told:?}");
+    assert!(reported.iter().any(|(_, what)| what.contains("elements `face`") || what.contains("not whole")), "{reported:?}");
+    let (mesh, reported) = mended(&text(&header, &format!("{SQUARE}3 0 1 2\n")));
+    assert_eq!((mesh.faces.len(), reported[0].1.contains("1 of its 2 elements `face`")), (1, true), "{reported:?}");
     for big_endian in [false, true] {
         let whole = binary(big_endian);
         let more = [&whole[..], b"more"].concat();
-        let (mesh, told) = mended(&more);
-        assert_eq!((mesh.faces.len(), told.len()), (2, 1), "{told:?}");
-        let (_, told) = mended(&[&whole[..], b"\n\0"].concat());
-        assert!(told.is_empty(), "{told:?}");
+        let (mesh, reported) = mended(&more);
+        assert_eq!((mesh.faces.len(), reported.len()), (2, 1), "{reported:?}");
+        let (_, reported) = mended(&[&whole[..], b"\n\0"].concat());
+        assert!(reported.is_empty(), "{reported:?}");
     }
 }
 
@@ -272,8 +272,8 @@ fn odd_lines_of_a_header_are_left_out() {
         ("face 1", "face -1"),
     ] {
         let changed = plain.replacen(from, to, 1);
-        let (mesh, told) = mended(changed.as_bytes());
-        assert_eq!((area(&mesh), told.len()), (1.0, 1), "{changed}: {told:?}");
+        let (mesh, reported) = mended(changed.as_bytes());
+        assert_eq!((area(&mesh), reported.len()), (1.0, 1), "{changed}: {reported:?}");
     }
     // Text needs no types.
     assert!(mended(plain.replace("float", "real").as_bytes()).1.is_empty());
@@ -286,17 +286,17 @@ fn names_of_properties_have_variants() {
     let of_vertices = "property float normal_x\nproperty float normal_y\nproperty float normal_z\nproperty float texture_u\nproperty float texture_v\nelement face";
     let header = HEADER.replace("element face", of_vertices).replace("float x", "float X");
     let row = |x: u32, y: u32| format!("{x} {y} 0 0 0 1 {x} {y}\n");
-    let (mesh, told) = mended(&text(&header, &[row(0, 0), row(1, 0), row(1, 1), row(0, 1), "4 0 1 2 3\n".into()].concat()));
-    assert!(told.is_empty(), "{told:?}");
+    let (mesh, reported) = mended(&text(&header, &[row(0, 0), row(1, 0), row(1, 1), row(0, 1), "4 0 1 2 3\n".into()].concat()));
+    assert!(reported.is_empty(), "{reported:?}");
     assert_eq!((mesh.normals, mesh.uvs), (vec![Vec3::Z; 4], vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y]));
 }
 
 #[test]
 fn strips_lose_the_triangles_of_a_wrong_index() {
     let header = "element vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\nproperty list int int vertex_indices\n";
-    let (mesh, told) = mended(&text(header, "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 9 3 -1 0 1 3\n"));
+    let (mesh, reported) = mended(&text(header, "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 9 3 -1 0 1 3\n"));
     assert_eq!(mesh.faces, [[0, 1, 2], [0, 1, 3]]);
-    assert!(told.len() == 1 && told[0].1.ends_with("2 in all"), "{told:?}");
+    assert!(reported.len() == 1 && reported[0].1.ends_with("2 in all"), "{reported:?}");
 }
 
 /// A header may promise what no file holds; memory follows what is there.

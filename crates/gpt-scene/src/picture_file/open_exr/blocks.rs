@@ -156,7 +156,7 @@ fn chunk_lines(header: &Header, chunk: Chunk, wanted: &[usize], take: &mut impl 
     Ok(())
 }
 
-/// The bytes of a block that has so many. The library takes a block to have as many numbers of each channel as it has pixels, so it is told of a part
+/// The bytes of a block that has so many. The library takes a block to have as many numbers of each channel as it has pixels, so it is reported of a part
 /// whose blocks have this length: methods that see bytes alone, of one channel; others, of pixels that take less.
 fn decompress(
     header: &Header,
@@ -165,13 +165,13 @@ fn decompress(
     length: usize,
 ) -> Result<Vec<u8>, String> {
     let method = header.compression;
-    let mut told = header.clone();
+    let mut adjusted = header.clone();
     let section = match method {
         Compression::Uncompressed | Compression::RLE | Compression::ZIP1 | Compression::ZIP16 => {
             // Every kind of number takes an even number of bytes.
             let one = ChannelDescription::new("bytes", SampleType::F16, false);
-            told.channels = ChannelList::new([one].into_iter().collect());
-            told.layer_size = Vec2(length / 2, 1);
+            adjusted.channels = ChannelList::new([one].into_iter().collect());
+            adjusted.layer_size = Vec2(length / 2, 1);
             IntegerBounds::new((0, 0), (length / 2, 1))
         }
         _ => {
@@ -179,10 +179,10 @@ fn decompress(
             if !length.is_multiple_of(pixels) {
                 return Err(format!("has channels of reduced resolution in {method}, which is not read; {}", RESAVE));
             }
-            told.channels.bytes_per_pixel = length / pixels;
+            adjusted.channels.bytes_per_pixel = length / pixels;
             IntegerBounds::new((0, i32::try_from(first).unwrap_or(0)), (width, rows))
         }
     };
-    let decoded = method.decompress_image_section_from_le(&told, bytes, section, false);
+    let decoded = method.decompress_image_section_from_le(&adjusted, bytes, section, false);
     decoded.map_err(|error| format!("has a broken block: {error}"))
 }

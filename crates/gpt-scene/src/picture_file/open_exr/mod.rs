@@ -169,7 +169,7 @@ impl ExrFile {
     }
 }
 
-/// Rows of a picture whose channels have to be held whole, each with its row in the data window.
+/// Rows of a picture whose channels have to be in memory whole, each with its row in the data window.
 fn decode_planes(
     file: AnyFile,
     header: &Header,

@@ -278,9 +278,9 @@ mod tests {
         let whole = turns(Interpolation::Linear, &[(0.0, DVec3::X, 0.0), (4.0, DVec3::Y, 720.0)]);
         let quarter = whole.at(0.5).expect("it has keys");
         assert_eq!((quarter.axis, quarter.degrees), (DVec3::Y, 90.0));
-        let bent = turns(Interpolation::Linear, &[(0.0, DVec3::X, 90.0), (2.0, DVec3::Y, 90.0)]);
-        let (a, b) = (bent.at(0.0).expect("a key").rotation(), bent.at(2.0).expect("a key").rotation());
-        let middle = bent.at(1.0).expect("it has keys").rotation();
+        let turning = turns(Interpolation::Linear, &[(0.0, DVec3::X, 90.0), (2.0, DVec3::Y, 90.0)]);
+        let (a, b) = (turning.at(0.0).expect("a key").rotation(), turning.at(2.0).expect("a key").rotation());
+        let middle = turning.at(1.0).expect("it has keys").rotation();
         assert!((middle.angle_between(a) - middle.angle_between(b)).abs() < 1e-12);
         assert!((middle.angle_between(a) - 0.5 * a.angle_between(b)).abs() < 1e-12);
     }

@@ -33,7 +33,7 @@ pub struct MorphTarget {
 pub struct Joint {
     /// The node that takes it along, among those of the animation.
     pub node: Option<usize>,
-    /// From the mesh before it is bent to the mesh as it is without a frame.
+    /// From the mesh before it is deformed to the mesh as it is without a frame.
     pub bind: DAffine3,
 }
 
@@ -47,7 +47,7 @@ pub struct Influences {
     pub ends: Vec<u32>,
 }
 
-/// A mesh of the scene that is bent at frames.
+/// A mesh of the scene that is deformed at frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeformationTrack {
     /// Index among the scene's shapes.
@@ -127,18 +127,18 @@ impl Deformation {
     /// The mesh as it is without a frame.
     pub fn at_rest(&self) -> Mesh {
         let joints: Vec<DAffine3> = self.joints.iter().map(|joint| joint.bind).collect();
-        self.bent(&self.targets.iter().map(|target| target.rest).collect::<Vec<_>>(), &joints)
+        self.deformed(&self.targets.iter().map(|target| target.rest).collect::<Vec<_>>(), &joints)
     }
 
     /// The mesh while the shutter is open. `along` is by how much a node takes things along, in the mesh's space.
     pub fn during(&self, moment: Moment, along: &dyn Fn(usize) -> DAffine3) -> Mesh {
         let weights: Vec<f64> = self.targets.iter().map(|target| target.weight.during(moment).unwrap_or(target.rest)).collect();
         let map = |joint: &Joint| joint.node.map_or(joint.bind, |node| along(node) * joint.bind);
-        self.bent(&weights, &self.joints.iter().map(map).collect::<Vec<_>>())
+        self.deformed(&weights, &self.joints.iter().map(map).collect::<Vec<_>>())
     }
 
     /// The mesh with these weights of its targets and these maps of its joints, without the faces that have no area then.
-    fn bent(&self, weights: &[f64], joints: &[DAffine3]) -> Mesh {
+    fn deformed(&self, weights: &[f64], joints: &[DAffine3]) -> Mesh {
         let mut mesh = Mesh::clone(&self.base);
         for (target, weight) in self.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
             let weight = *weight as f32;
@@ -193,7 +193,7 @@ mod tests {
         }
     }
 
-    /// An arm along +x of two bones: the second is bent by 90 degrees about its joint at x = 1. By hand. A vertex that hangs on both by half is the
+    /// An arm along +x of two bones: the second turns by 90 degrees about its joint at x = 1. By hand. A vertex that hangs on both by half is the
     /// mean of where each puts it, and its normal likewise.
     #[test]
     fn joints_take_vertices_along() {
@@ -208,19 +208,19 @@ mod tests {
         let about = DAffine3::from_translation(DVec3::X);
         // +x to -z: normals along +z turn to +x.
         let turn = about * DAffine3::from_rotation_y(std::f64::consts::FRAC_PI_2) * about.inverse();
-        let bent = arm.during(Moment::from(1.0), &|node| {
+        let deformed = arm.during(Moment::from(1.0), &|node| {
             assert_eq!(node, 7);
             turn
         });
         let expected = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 0.0, -1.0)];
-        for (found, expected) in bent.positions.iter().zip(expected) {
+        for (found, expected) in deformed.positions.iter().zip(expected) {
             assert!((*found - expected).length() < 1e-6, "{found} {expected}");
         }
         let diagonal = Vec3::new(1.0, 0.0, 1.0).normalize();
-        for (found, expected) in bent.normals.iter().zip([Vec3::Z, diagonal, Vec3::Z, Vec3::X]) {
+        for (found, expected) in deformed.normals.iter().zip([Vec3::Z, diagonal, Vec3::Z, Vec3::X]) {
             assert!((*found - expected).length() < 1e-6, "{found} {expected}");
         }
-        // The control: at rest nothing is bent.
+        // The control: at rest nothing is deformed.
         assert_eq!(arm.at_rest().positions, strip().positions);
     }
 

@@ -31,7 +31,7 @@ pub struct Animation {
     pub shapes: Vec<ShapeTrack>,
     pub camera: Option<CameraTrack>,
     pub lights: Vec<LightTrack>,
-    /// Meshes that are bent, in the order of their shapes.
+    /// Meshes that are deformed, in the order of their shapes.
     pub deformations: Vec<DeformationTrack>,
 }
 
@@ -54,10 +54,10 @@ impl Animation {
         self.frames().is_none()
     }
 
-    /// How many shapes have keys, or are bent by what has some.
+    /// How many shapes have keys, or are deformed by what has some.
     pub fn animated_shapes(&self) -> usize {
-        let is_counted = |bent: &&DeformationTrack| self.shapes.iter().any(|track| track.shape == bent.shape);
-        self.shapes.len() + self.deformations.iter().filter(|bent| !is_counted(bent)).count()
+        let is_counted = |deformed: &&DeformationTrack| self.shapes.iter().any(|track| track.shape == deformed.shape);
+        self.shapes.len() + self.deformations.iter().filter(|deformed| !is_counted(deformed)).count()
     }
 
     /// The first and the last frame of all keys; None where there are none.
@@ -75,15 +75,15 @@ impl Animation {
     }
 
     /// The shapes with keys, each as it is turned and scaled at the first frame of all keys; None where neither shapes nor lights have any. It is the
-    /// same for all frames. Meshes that are bent are among them, so that what stands still beside them has a tree of its own.
+    /// same for all frames. Meshes that are deformed are among them, so that what stands still beside them has a tree of its own.
     pub fn first_poses(&self) -> Option<Arc<[(usize, DMat3)]>> {
         let has_some = !(self.shapes.is_empty() && self.lights.is_empty() && self.deformations.is_empty());
         let [first, _] = self.frames().filter(|_| has_some)?;
         let at = Moment { now: first, opening: first };
         let moved = self.shapes.iter().map(|track| (track.shape, track.during(self, at).matrix3));
-        let stands = |bent: &&DeformationTrack| self.shapes.iter().all(|track| track.shape != bent.shape);
-        let bent = self.deformations.iter().filter(stands).map(|track| (track.shape, track.place.matrix3));
-        Some(moved.chain(bent).collect())
+        let stands = |deformed: &&DeformationTrack| self.shapes.iter().all(|track| track.shape != deformed.shape);
+        let deformed = self.deformations.iter().filter(stands).map(|track| (track.shape, track.place.matrix3));
+        Some(moved.chain(deformed).collect())
     }
 
     /// By how much a node takes things along from where they stand without a frame.

@@ -31,7 +31,7 @@ pub trait SceneLight {
         None
     }
 
-    /// The texture that it throws, if it does.
+    /// The texture that it projects, if it does.
     fn texture(&self) -> Option<TextureId> {
         None
     }

@@ -271,7 +271,7 @@ impl MaterialKind {
     }
 }
 
-/// Smooth glass whose channels are not reflected or bent alike.
+/// Smooth glass whose channels are not reflected or refracted alike.
 fn spectral_glass(ior: f64, dispersion: Option<Dispersion>, film: Option<ThinFilm>, colors: [ColorInput; 2]) -> LobeParameters {
     let [thin_film_thickness, thin_film] = further_of_film(film);
     let iors = ColorInput::Constant(iors(ior, dispersion));

@@ -57,7 +57,7 @@ pub struct Emission {
 
 impl Material {
     /// The material itself, not those it blends, sends light that comes from one direction into one direction or nearly, or through a body: no light
-    /// sample of a surface beyond finds the lamp that it comes from.
+    /// sample of a surface beyond finds the light that it comes from.
     pub fn gathers_light(&self) -> bool {
         match &self.kind {
             MaterialKind::Mirror { .. } | MaterialKind::Glass { .. } | MaterialKind::RoughGlass { .. } => true,

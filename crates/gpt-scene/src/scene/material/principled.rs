@@ -27,7 +27,7 @@ pub struct Principled {
     pub roughness: ColorInput,
     /// The index of refraction of the dielectric, inside over outside.
     pub ior: f64,
-    /// The way in which it depends on the wavelength where light goes through; None: all channels are bent alike.
+    /// The way in which it depends on the wavelength where light goes through; None: all channels are refracted alike.
     pub dispersion: Option<Dispersion>,
     /// Factor of what the dielectric reflects, and its colour along the normal.
     pub specular: ColorInput,
@@ -65,7 +65,7 @@ pub struct Principled {
     pub energy_compensation: bool,
 }
 
-/// Scattering below a surface (OpenPBR 1.1, "Subsurface"): light is bent as it enters the body and as it leaves it, and scattered by the medium
+/// Scattering below a surface (OpenPBR 1.1, "Subsurface"): light is refracted as it enters the body and as it leaves it, and scattered by the medium
 /// within.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Subsurface {

@@ -45,7 +45,7 @@ mod tests {
     use super::Mesh;
 
     #[test]
-    fn closed_surfaces_that_look_inward_are_told() {
+    fn closed_surfaces_that_look_inward_are_reported() {
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
         let mut mesh = Mesh { positions, faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], ..Mesh::default() };
         assert!(mesh.is_closed() && !mesh.looks_inward());

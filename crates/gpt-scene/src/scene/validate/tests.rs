@@ -5,8 +5,8 @@ use glam::{DVec3, Vec2, Vec3};
 use super::*;
 use crate::scene::{
     Aperture, CoatNormalMap, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture,
-    Masking, Medium, Mesh, Microfacets, Motion, MotionStep, Phase, PhaseKind, Plane, PointLight, Principled, Rectangle, Sphere,
-    SpotLight, Texture, TextureFilter, TextureWrap, ThrownPicture, Transform, TransformStep,
+    Masking, Medium, Mesh, Microfacets, Motion, MotionStep, Phase, PhaseKind, Plane, PointLight, Principled, ProjectedTexture,
+    Rectangle, Sphere, SpotLight, Texture, TextureFilter, TextureWrap, Transform, TransformStep,
 };
 use crate::spectrum::Spectrum;
 
@@ -354,14 +354,14 @@ fn each_mistake_is_named_with_its_part() {
         (
             |s| {
                 let Light::Spot(spot) = &mut s.lights[1] else { panic!("it is a spot light") };
-                spot.picture = Some(ThrownPicture { texture: 99, up: DVec3::X });
+                spot.picture = Some(ProjectedTexture { texture: 99, up: DVec3::X });
             },
             "light[1]: there is no texture 99",
         ),
         (
             |s| {
                 let Light::Spot(spot) = &mut s.lights[1] else { panic!("it is a spot light") };
-                spot.picture = Some(ThrownPicture { texture: 0, up: DVec3::Y });
+                spot.picture = Some(ProjectedTexture { texture: 0, up: DVec3::Y });
             },
             "light[1]: its position must be",
         ),

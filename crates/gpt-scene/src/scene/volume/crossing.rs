@@ -3,7 +3,7 @@
 //! The arithmetic, which shaders can do the same way: the ray is taken to index space, where it is at `origin + distance * direction` with the
 //! distance of the medium's space. It crosses a plane `x = p` at `(p - origin.x) / direction.x`, and never where `direction.x` is 0. The grid's
 //! box is between the largest distance to its three near planes and the smallest to its three far ones. The first cell is that of the point where
-//! the ray enters, held within the grid. A cell ends at the nearest of the three planes ahead, `min((c + 1) * s, n)` where the direction grows
+//! the ray enters, clamped to the grid. A cell ends at the nearest of the three planes ahead, `min((c + 1) * s, n)` where the direction grows
 //! and `c * s` where it falls, each computed from the number of the cell so that no error adds up; then the cell's number on that axis
 //! changes by one. A distance below the one before it, which rounding may give, counts as that one, and a cell without length is left out.
 //! Segments thus tile the ray, each ending with the very number that the next begins with.
@@ -36,7 +36,7 @@ pub struct Crossing<'v> {
     /// The ray in index space.
     origin: DVec3,
     direction: DVec3,
-    /// Distance up to which segments were told, and the one at which they end.
+    /// Distance up to which segments were reported, and the one at which they end.
     at: f64,
     end: f64,
     /// Distances at which the ray is in the grid's box; equal ones: it is not.

@@ -285,8 +285,8 @@ impl<'w> Writer<'w> {
     /// The light of a material; None where it gives none.
     pub fn emission(&mut self, name: &str, place: &str) -> Option<Element> {
         let material = self.named(name)?.clone();
-        let is_lamp = text(&material, "type") == Some("emissive");
-        let (key, both) = if is_lamp { ("radiance", "two_sided") } else { ("emission", "emission_two_sided") };
+        let is_emissive = text(&material, "type") == Some("emissive");
+        let (key, both) = if is_emissive { ("radiance", "two_sided") } else { ("emission", "emission_two_sided") };
         let value = material.get(key)?;
         if flag(&material, both) == Some(true) {
             self.drop("light from both sides", place, "it leaves the front");

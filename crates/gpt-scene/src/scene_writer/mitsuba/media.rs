@@ -123,7 +123,7 @@ impl Writer<'_> {
         }
         let is_hull = self.original.materials_that(is_hull);
         let bodies = self.original.shapes.iter().filter(|shape| is_hull[shape.material]);
-        let hull = |shape: &Shape| Some(Hull { bounds: shape.bounds()?, holds: self.held_by(shape.material) });
+        let hull = |shape: &Shape| Some(Hull { bounds: shape.bounds()?, holds: self.medium_within(shape.material) });
         let mut hulls: Vec<Hull> = bodies.filter_map(hull).collect();
         hulls.sort_by(|a, b| a.size().total_cmp(&b.size()));
         // A body of that medium around the camera is left by rays that go out of it.
@@ -140,7 +140,7 @@ impl Writer<'_> {
     pub fn with_media(&self, element: Element, shape: Option<&Shape>, is_of_group: bool) -> Element {
         let is_hull = |shape: &&Shape| self.surroundings.is_hull.get(shape.material) == Some(&true);
         let Some(shape) = shape.filter(is_hull) else { return element };
-        let interior = self.held_by(shape.material);
+        let interior = self.medium_within(shape.material);
         let exterior = self.surroundings.around(shape.bounds().filter(|_| !is_of_group));
         let element = match &interior {
             Some(id) => element.named_reference("interior", id),
@@ -153,7 +153,7 @@ impl Writer<'_> {
     }
 
     /// The medium within bodies of a material; a blend has that of the first part with one.
-    fn held_by(&self, id: MaterialId) -> Option<String> {
+    fn medium_within(&self, id: MaterialId) -> Option<String> {
         let mut to_visit = vec![id];
         let mut seen = HashSet::new();
         while let Some(id) = to_visit.pop() {

@@ -261,7 +261,7 @@ impl Writer<'_> {
         let aspect = number(light, "aspect");
         let Some(name) = text(light, "texture") else {
             if aspect.is_some_and(|aspect| aspect != 1.0) {
-                self.drop("aspect", place, "what is thrown is a square");
+                self.drop("aspect", place, "what is projected is a square");
             }
             return Ok(emitter.rgb("irradiance", strength));
         };

@@ -81,7 +81,7 @@ impl LightEntry {
         }
     }
 
-    /// The texture whose picture the light throws; None of lights that throw none.
+    /// The texture whose picture the light projects; None of lights that project none.
     pub fn texture_mut(&mut self) -> Option<&mut Located<TextureName>> {
         match self {
             Self::Spot(keys) => keys.texture.as_mut(),

@@ -14,7 +14,7 @@ use crate::load::file::writer::{self, Writer, colour, direction, line, number};
 use crate::load::place::Place;
 use crate::scene::{Projector, TextureKind};
 
-/// A light from one point that throws a rectangular picture.
+/// A light from one point that projects a rectangular picture.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "ProjectorLight")]

@@ -14,7 +14,7 @@ use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector,
 use crate::load::file::writer::{self, Writer, colour, direction, line, number};
 use crate::load::place::Place;
 use crate::scene::animation::LightTrack;
-use crate::scene::{FalloffCurve, SpotLight, ThrownPicture};
+use crate::scene::{FalloffCurve, ProjectedTexture, SpotLight};
 
 /// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as `curve` says.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -119,7 +119,7 @@ impl LightKeys for Keys {
 }
 
 impl Keys {
-    fn picture(&self, resolver: &mut Resolver<'_>) -> Result<Option<ThrownPicture>, SceneError> {
+    fn picture(&self, resolver: &mut Resolver<'_>) -> Result<Option<ProjectedTexture>, SceneError> {
         let Some(name) = &self.texture else {
             return match &self.up {
                 Some(up) => Err(resolver.error(&up.place, "`up` belongs to `texture`, which this light has not")),
@@ -131,11 +131,11 @@ impl Keys {
         }
         let texture = resolver.texture_id(name)?;
         let up = up_across(resolver, &self.direction, self.up.as_ref())?;
-        Ok(Some(ThrownPicture { texture, up }))
+        Ok(Some(ProjectedTexture { texture, up }))
     }
 }
 
-/// Which way is up in a picture that a light throws along `direction`.
+/// Which way is up in a picture that a light projects along `direction`.
 pub fn up_across(
     resolver: &Resolver<'_>,
     direction: &Located<Vector>,

@@ -20,7 +20,7 @@ pub fn located<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) 
             f.write_str("a value with its place")
         }
         fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Self::Value, A::Error> {
-            let (Place(span), content) = data.variant()?;
+            let (ByteSpan(span), content) = data.variant()?;
             Ok((content.newtype_variant()?, span))
         }
     }
@@ -28,21 +28,21 @@ pub fn located<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) 
 }
 
 /// The bytes of a value.
-struct Place(Range<usize>);
+struct ByteSpan(Range<usize>);
 
-impl<'de> Deserialize<'de> for Place {
+impl<'de> Deserialize<'de> for ByteSpan {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct PlaceVisitor;
-        impl Visitor<'_> for PlaceVisitor {
-            type Value = Place;
+        struct ByteSpanVisitor;
+        impl Visitor<'_> for ByteSpanVisitor {
+            type Value = ByteSpan;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
                 f.write_str("a place")
             }
             /// The start in the upper half, the end in the lower.
-            fn visit_u128<E: Error>(self, both: u128) -> Result<Place, E> {
-                Ok(Place((both >> 64) as usize..both as u64 as usize))
+            fn visit_u128<E: Error>(self, both: u128) -> Result<ByteSpan, E> {
+                Ok(ByteSpan((both >> 64) as usize..both as u64 as usize))
             }
         }
-        deserializer.deserialize_u128(PlaceVisitor)
+        deserializer.deserialize_u128(ByteSpanVisitor)
     }
 }

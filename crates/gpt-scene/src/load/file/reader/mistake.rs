@@ -39,11 +39,11 @@ impl Error for Mistake {
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::custom(format_args!("invalid type: {}, expected {}", Found(found), words(expected)))
+        Self::custom(format_args!("invalid type: {}, expected {}", FoundValue(found), words(expected)))
     }
 
     fn invalid_value(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::custom(format_args!("invalid value: {}, expected {}", Found(found), words(expected)))
+        Self::custom(format_args!("invalid value: {}, expected {}", FoundValue(found), words(expected)))
     }
 
     fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
@@ -68,9 +68,9 @@ impl Error for Mistake {
 }
 
 /// A value that is written, by its kind in TOML.
-struct Found<'a>(Unexpected<'a>);
+struct FoundValue<'a>(Unexpected<'a>);
 
-impl fmt::Display for Found<'_> {
+impl fmt::Display for FoundValue<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Unexpected::Float(value) => write!(f, "number `{value:?}`"),

@@ -171,7 +171,7 @@ impl<'t> Reader<'t> {
     fn choice(self, name: &'static str, kinds: &[&str]) -> Result<Choice<'t>, Mistake> {
         let span = self.node.span();
         if name == LOCATED {
-            return Ok(Choice { kind: Kind::Place(span.clone()), span, content: Some(self) });
+            return Ok(Choice { kind: Kind::Span(span.clone()), span, content: Some(self) });
         }
         let found = self.node.get_ref();
         let Some(tag) = name.strip_prefix(TAG) else {
@@ -395,7 +395,7 @@ struct Choice<'t> {
 enum Kind<'t> {
     Name(&'t str),
     /// The place of a value with its place.
-    Place(Range<usize>),
+    Span(Range<usize>),
 }
 
 impl<'t> EnumAccess<'t> for Choice<'t> {
@@ -414,7 +414,7 @@ impl<'t> Deserializer<'t> for Kind<'t> {
     fn deserialize_any<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
         match self {
             Self::Name(name) => visitor.visit_str(name),
-            Self::Place(span) => visitor.visit_u128(((span.start as u128) << 64) | span.end as u128),
+            Self::Span(span) => visitor.visit_u128(((span.start as u128) << 64) | span.end as u128),
         }
     }
 

@@ -103,7 +103,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// A texture by which normals are bent.
+    /// A texture by which normals are perturbed.
     fn relief_texture(&self, name: &Located<TextureName>) -> Result<TextureId, SceneError> {
         let id = self.texture_id(name)?;
         if self.scene.textures[id].times.is_some() {
@@ -178,9 +178,9 @@ impl Resolver<'_> {
         };
         if let Some((id, relief)) = relief {
             let linear = self.linear_textures[id];
-            let (shadows_bent_normals, mirrors_bent_normals) = (is_shadowed, is_mirrored);
+            let (shadows_perturbed_normals, mirrors_perturbed_normals) = (is_shadowed, is_mirrored);
             let texture = self.scene.textures[id].clone();
-            self.scene.textures.push(Texture { relief, shadows_bent_normals, mirrors_bent_normals, ..texture });
+            self.scene.textures.push(Texture { relief, shadows_perturbed_normals, mirrors_perturbed_normals, ..texture });
             self.linear_textures.push(linear);
             material.normal_map = Some(self.scene.textures.len() - 1);
         }

@@ -25,7 +25,7 @@ use crate::scene::{Scene, Transform};
 /// Resolves a whole file.
 pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, access: Access) -> Result<Scene, SceneError> {
     let mut resolver = Resolver::new(document, folder, access);
-    // Each part goes on past its own mistakes, so that all are told at once.
+    // Each part goes on past its own mistakes, so that all are reported at once.
     let settings = resolver.settings(&file);
     resolver.note(settings);
     let media = resolver.media(&file.medium);

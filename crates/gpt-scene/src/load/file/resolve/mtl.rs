@@ -216,7 +216,7 @@ impl Resolver<'_> {
         Ok(Some(if tint == Spectrum::WHITE { ColorInput::Texture(texture) } else { ColorInput::ScaledTexture(texture, tint) }))
     }
 
-    /// The picture of a map as a texture. None where it cannot be read, which is told.
+    /// The picture of a map as a texture. None where it cannot be read, which is reported.
     pub(super) fn mtl_picture(
         &mut self,
         written: &MtlMaterial,
@@ -260,7 +260,7 @@ impl Resolver<'_> {
         Ok(Some(self.scene.textures.len() - 1))
     }
 
-    /// The texture by which normals are bent: that of `norm`, a map of normals, or of `map_Bump`. The latter holds heights, of which 1 stands for
+    /// The texture by which normals are perturbed: that of `norm`, a map of normals, or of `map_Bump`. The latter holds heights, of which 1 stands for
     /// the bump multiplier (`-bm`) in scene units, as in Blender's node of bumps and in three.js; but Blender and others write maps of normals
     /// there, whose strength the multiplier then is.
     fn mtl_relief(&mut self, written: &MtlMaterial) -> Result<Option<TextureId>, SceneError> {

@@ -92,7 +92,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// Reads the files of all image textures on all cores. What cannot be read is left to be found again, and told, in its turn.
+    /// Reads the files of all image textures on all cores. What cannot be read is left to be found again, and reported, in its turn.
     fn decode_side_by_side(&mut self, written: &[TextureEntry]) {
         let key = |entry: &TextureEntry| match entry {
             TextureEntry::Image(image) => Some((self.picture_source(&image.file.value), image.color_space.map(Into::into))),

@@ -94,7 +94,7 @@ impl Resolver<'_> {
         })?;
         let rest = deformation.at_rest();
         if let Some(vertex) = rest.positions.iter().position(|position| !position.is_finite()) {
-            return Err(self.error(span, format!("vertex {vertex} of the mesh is bent out of the range of numbers")));
+            return Err(self.error(span, format!("vertex {vertex} of the mesh is deformed out of the range of numbers")));
         }
         self.deformation = Some(deformation);
         Ok(Arc::new(rest))

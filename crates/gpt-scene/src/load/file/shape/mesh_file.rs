@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::suggestion::did_you_mean_name;
-use crate::load::model::{ModelFile, ModelFormat, Part, Substitute};
+use crate::load::model::{ModelFile, ModelFormat, ModelPart, Substitute};
 use crate::load::place::Place;
 use crate::load::{obj, ply};
 use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh, MeshSource};
@@ -54,7 +54,7 @@ impl Resolver<'_> {
         }
         let loaded = match material {
             Some(material) => {
-                let lacks_uvs = |part: &Part| part.mesh.uvs.is_empty();
+                let lacks_uvs = |part: &ModelPart| part.mesh.uvs.is_empty();
                 if file.parts.iter().any(lacks_uvs) && !file.parts.iter().all(lacks_uvs) && self.uses_texture(material) {
                     self.substitute(path, without_uvs(&self.scene.materials[material].name))?;
                 }
@@ -92,7 +92,7 @@ impl Resolver<'_> {
         }
         let replacement = |name: &str| replaced.iter().find(|(known, _)| known == name).map(|(_, id)| *id);
         let mut used: Vec<Option<MaterialId>> = vec![None; file.materials.len()];
-        for Part { mesh, material } in &mut file.parts {
+        for ModelPart { mesh, material } in &mut file.parts {
             let id = match *material {
                 Some(index) => match used[index] {
                     Some(id) => id,
@@ -177,7 +177,7 @@ fn with_fewest_materials(mut mesh: Mesh) -> LoadedMesh {
 
 /// All parts as one mesh. Normals are kept, made or left out as `smooth` asks; without a wish, a file with normals is smooth.
 fn merge(mut file: ModelFile, smooth: Option<bool>) -> Mesh {
-    let has_normals = |part: &Part| !part.mesh.normals.is_empty();
+    let has_normals = |part: &ModelPart| !part.mesh.normals.is_empty();
     let some = file.parts.iter().any(has_normals);
     let all = file.parts.iter().all(has_normals);
     if some && !all {

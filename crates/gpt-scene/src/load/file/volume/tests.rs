@@ -89,9 +89,9 @@ fn bounds_hold_the_active_voxels_of_a_sparse_grid() {
 }
 
 #[test]
-fn mistakes_are_told_at_their_keys() {
+fn mistakes_are_reported_at_their_keys() {
     let folder = folder();
-    let told = |entry: &str| {
+    let reported = |entry: &str| {
         let error = error_of(folder.path(), entry);
         (error.key().unwrap_or_default().to_owned(), error.message().to_owned(), error.help_text().unwrap_or_default().to_owned())
     };
@@ -113,12 +113,12 @@ fn mistakes_are_told_at_their_keys() {
         ("{ resolution = [4294967295, 4294967295, 4294967295], values = [1] }", "density.values", "the most"),
     ];
     for (entry, key, message) in cases {
-        let (found_key, found, _) = told(entry);
+        let (found_key, found, _) = reported(entry);
         assert!(found_key == key && found.contains(message), "{entry}: {found_key}: {found}");
     }
-    assert!(told("{ scale = 2 }").2.contains("smoke.vdb"));
+    assert!(reported("{ scale = 2 }").2.contains("smoke.vdb"));
     fs::write(folder.path().join("no.vdb"), "no volume").expect("the file is written");
-    assert!(told("{ file = 'no.vdb' }").1.contains("OpenVDB (.vdb), NanoVDB (.nvdb) and Mitsuba"));
+    assert!(reported("{ file = 'no.vdb' }").1.contains("OpenVDB (.vdb), NanoVDB (.nvdb) and Mitsuba"));
 }
 
 #[test]
@@ -130,12 +130,12 @@ fn a_misspelt_name_of_a_grid_is_suggested() {
     let names = || vec!["density".to_owned(), "temperature".to_owned()];
     let error = VolumeError::NoSuchGrid { wanted: "densty".to_owned(), names: names() };
     let file = place.at(FileOr::Written("a.vdb".to_owned()));
-    let told = resolver.grid_error(Path::new("a.vdb"), &file, Some(&place.at("densty".to_owned())), &error);
-    assert_eq!(told.message(), "a.vdb: it has no grid named `densty`");
-    assert_eq!(told.help_text(), Some("did you mean `density`? valid choices: density, temperature"));
-    let told = resolver.grid_error(Path::new("a.vdb"), &file, None, &VolumeError::WhichGrid { names: names() });
-    assert_eq!(told.message(), "a.vdb: it has 2 grids, and the key `grid` does not say which");
-    assert_eq!(told.help_text(), Some("valid choices: density, temperature"));
+    let reported = resolver.grid_error(Path::new("a.vdb"), &file, Some(&place.at("densty".to_owned())), &error);
+    assert_eq!(reported.message(), "a.vdb: it has no grid named `densty`");
+    assert_eq!(reported.help_text(), Some("did you mean `density`? valid choices: density, temperature"));
+    let reported = resolver.grid_error(Path::new("a.vdb"), &file, None, &VolumeError::WhichGrid { names: names() });
+    assert_eq!(reported.message(), "a.vdb: it has 2 grids, and the key `grid` does not say which");
+    assert_eq!(reported.help_text(), Some("valid choices: density, temperature"));
 }
 
 #[test]

@@ -416,7 +416,7 @@ fn rows() -> Vec<Row> {
 
 /// Whatever a key is, it shows, or is reported, or the file is refused.
 #[test]
-fn every_end_of_every_key_is_told_or_shows() {
+fn every_end_of_every_key_is_reported_or_shows() {
     let mut silent = Vec::new();
     for Row(name, pointer, values, setup) in rows() {
         let mut base = file();

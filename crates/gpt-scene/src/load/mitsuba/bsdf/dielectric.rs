@@ -16,7 +16,7 @@ use crate::load::mitsuba::metals;
 use crate::load::mitsuba::plugin::{Plugin, PropertyValue, SpectralCurve};
 use crate::spectrum::Spectrum;
 
-/// Glass; a thin one is two surfaces so near to each other that nothing is bent.
+/// Glass; a thin one is two surfaces so near to each other that nothing is refracted.
 pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     let ior = relative_ior(plugin, "bk7")?;
     let reflectance = converter.reflectance(plugin, "specular_reflectance", 1.0)?;

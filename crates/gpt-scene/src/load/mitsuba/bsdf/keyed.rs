@@ -8,14 +8,14 @@ use crate::spectrum::Spectrum;
 
 /// The BSDFs within another one.
 #[derive(Debug, Default)]
-pub struct Parts {
+pub struct NestedBsdfs {
     /// The names of their materials.
     pub names: Vec<String>,
     /// The map of normals or heights that all of them have.
     pub relief: Relief,
 }
 
-/// The keys by which a material's normals are bent.
+/// The keys by which a material's normals are perturbed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Relief {
     normal_map: Option<Located<TextureName>>,

@@ -11,7 +11,7 @@ mod wrapped;
 
 use std::rc::Rc;
 
-use self::keyed::{Keyed, Parts, Relief, black, grey, nothing};
+use self::keyed::{Keyed, NestedBsdfs, Relief, black, grey, nothing};
 use super::converter::Converter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
@@ -56,14 +56,14 @@ impl Converter<'_> {
         *common.emission = Some(place.at(shape.possible(light.colour(&place))?));
         // Surfaces with equal scattering and emission share one material.
         let key = format!("{entry:?}");
-        if let Some(known) = self.lamps.get(&key) {
+        if let Some(known) = self.emissive_materials.get(&key) {
             return Ok(known.clone());
         }
         let wanted = if shape.id.is_empty() { format!("{plain}, giving light") } else { shape.id.clone() };
         let name = self.scene.free_material_name(&wanted);
         *entry.common_mut().name = place.at(name.clone());
         self.scene.file.material.push(entry);
-        self.lamps.insert(key, name.clone());
+        self.emissive_materials.insert(key, name.clone());
         Ok(name)
     }
 
@@ -171,9 +171,9 @@ impl Converter<'_> {
     }
 
     /// All BSDFs within another one, whose normals are its own.
-    fn parts(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Parts, SceneError> {
+    fn parts(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<NestedBsdfs, SceneError> {
         let within: Vec<Rc<Plugin>> = plugin.children_of("bsdf").into_iter().cloned().collect();
-        let mut parts = Parts::default();
+        let mut parts = NestedBsdfs::default();
         let mut maps = Vec::new();
         for part in &within {
             let made = self.bsdf(part, depth + 1)?;

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::keyed::{Keyed, Parts, black, nothing, with_relief};
+use super::keyed::{Keyed, NestedBsdfs, black, nothing, with_relief};
 use super::principled::weight;
 use crate::load::error::SceneError;
 use crate::load::file::material::blend_weight::{BlendWeightEntry, NoKeys};
@@ -30,7 +30,7 @@ pub fn two_sided(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -
 
 /// The first BSDF on the front, the second one on the back.
 fn sides(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<MaterialEntry, SceneError> {
-    let Parts { names, relief } = converter.parts(plugin, depth)?;
+    let NestedBsdfs { names, relief } = converter.parts(plugin, depth)?;
     let count = names.len();
     let sides = <[String; 2]>::try_from(names);
     let sides = sides.map_err(|_| plugin.error(format!("a surface has two sides, and this one {count} bsdfs for them")))?;
@@ -136,7 +136,7 @@ pub fn blend(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Re
 pub fn mixture(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let text = plugin.text("weights")?.ok_or_else(|| plugin.error("a mixture needs the string `weights`"))?;
     let weights = crate::load::mitsuba::transform::numbers(&plugin.place, text)?;
-    let Parts { names, relief } = converter.parts(plugin, depth)?;
+    let NestedBsdfs { names, relief } = converter.parts(plugin, depth)?;
     let sum: f64 = weights.iter().sum();
     if weights.len() != names.len() || names.is_empty() || weights.iter().any(|weight| *weight < 0.0) || sum > 1.0 + 1e-6 {
         return Err(plugin.error("a mixture has a weight from 0 to 1 for each bsdf within, at most 1 in all"));

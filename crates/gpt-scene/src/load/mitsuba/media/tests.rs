@@ -14,14 +14,14 @@ use crate::scene_writer::save_scene;
 use crate::spectrum::Spectrum;
 
 const VOLPATH: &str = "<integrator type=\"volpath\"/>";
-const LAMP: &str = "<emitter type=\"point\"><point name=\"position\" x=\"9\" y=\"9\" z=\"9\"/></emitter>";
+const POINT_LIGHT: &str = "<emitter type=\"point\"><point name=\"position\" x=\"9\" y=\"9\" z=\"9\"/></emitter>";
 const BODY: &str = "<bsdf type=\"null\"/>";
 
 /// A scene of these elements with a sensor that has these.
 fn document(integrator: &str, of_sensor: &str, more: &str) -> String {
     format!(
         "<scene version=\"3.0.0\">{integrator}<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>{of_sensor}<transform name=\"to_world\">\
-         <lookat origin=\"0,0,20\" target=\"0,0,0\" up=\"0,1,0\"/></transform></sensor>{LAMP}{more}</scene>"
+         <lookat origin=\"0,0,20\" target=\"0,0,0\" up=\"0,1,0\"/></transform></sensor>{POINT_LIGHT}{more}</scene>"
     )
 }
 
@@ -134,14 +134,14 @@ fn every_way_to_say_how_dense_a_medium_is() {
 fn phase_functions_are_what_they_say_or_reported() {
     let phase = |text: &str| medium("homogeneous", text).phase;
     let lobe = |kind| Phase::of(kind);
-    let bent = |g| PhaseKind::HenyeyGreenstein { g };
+    let henyey_greenstein = |g| PhaseKind::HenyeyGreenstein { g };
     assert_eq!(phase("<phase type=\"isotropic\"/>"), Phase::isotropic());
     assert_eq!(phase("<phase type=\"rayleigh\"/>"), lobe(PhaseKind::Rayleigh));
-    assert_eq!(phase("<phase type=\"hg\"><float name=\"g\" value=\"-0.3\"/></phase>"), lobe(bent(-0.3)));
+    assert_eq!(phase("<phase type=\"hg\"><float name=\"g\" value=\"-0.3\"/></phase>"), lobe(henyey_greenstein(-0.3)));
     // The default there.
-    assert_eq!(phase("<phase type=\"hg\"/>"), lobe(bent(0.8)));
+    assert_eq!(phase("<phase type=\"hg\"/>"), lobe(henyey_greenstein(0.8)));
     let blend = "<phase type=\"blendphase\"><float name=\"weight\" value=\"0.25\"/><phase type=\"rayleigh\"/><phase type=\"hg\"/></phase>";
-    let expected = [(0.75, PhaseKind::Rayleigh), (0.25, bent(0.8))].map(|(weight, kind)| PhaseLobe { weight, kind });
+    let expected = [(0.75, PhaseKind::Rayleigh), (0.25, henyey_greenstein(0.8))].map(|(weight, kind)| PhaseLobe { weight, kind });
     assert_eq!(phase(blend), Phase(expected.to_vec()));
     // The control: the weight is the second one's share.
     assert_ne!(phase(&blend.replace("0.25", "0.75")), phase(blend));
@@ -271,16 +271,16 @@ fn groups_hold_media() {
     let holds = |of_sensor: &str| {
         let scene = read(&document(VOLPATH, of_sensor, &format!("{FOG}{group}{instances}")));
         assert_eq!((scene.groups.len(), scene.shapes.len()), (1, 0));
-        let held = |shape: usize| {
+        let interior = |shape: usize| {
             let interior = scene.materials[scene.groups[0].shapes[shape].material].interior;
             interior.map(|id| scene.media[id].name.clone())
         };
-        ([held(0), held(1)].map(Option::unwrap_or_default), report(&scene))
+        ([interior(0), interior(1)].map(Option::unwrap_or_default), report(&scene))
     };
     assert_eq!(holds(IN_FOG), (["fog", "milk"].map(str::to_owned), String::new()));
     // The control: without fog around the sensor it is not around the group.
-    let (held, report) = holds("");
-    assert_eq!(held, ["", "milk"].map(str::to_owned));
+    let (interiors, report) = holds("");
+    assert_eq!(interiors, ["", "milk"].map(str::to_owned));
     assert!(report.contains("exterior medium of a shape"), "{report}");
 }
 

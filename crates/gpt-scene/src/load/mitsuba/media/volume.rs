@@ -89,7 +89,7 @@ impl Converter<'_> {
         }
     }
 
-    /// A parameter for which there can be no grid here: the mean of one is taken, and told.
+    /// A parameter for which there can be no grid here: the mean of one is taken, and reported.
     pub(super) fn volume_mean(&mut self, plugin: &Rc<Plugin>, name: &str, default: f64) -> Result<Spectrum, SceneError> {
         Ok(match self.volume_parameter(plugin, name, default)? {
             Parameter::Constant { value, .. } => value,

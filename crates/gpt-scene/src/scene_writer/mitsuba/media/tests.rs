@@ -11,7 +11,7 @@ use crate::scene::{Medium, PhaseKind, Scene};
 use crate::scene_writer::as_mitsuba;
 
 const HEAD: &str = "[camera]\nposition = [0, 0, 20]\nlook_at = [0, 0, 0]\nvfov = 40\n";
-const LAMP: &str = "[[light]]\ntype = \"point\"\nposition = [9, 9, 9]\nintensity = 9\n";
+const POINT_LIGHT: &str = "[[light]]\ntype = \"point\"\nposition = [9, 9, 9]\nintensity = 9\n";
 const MEDIA: &str = "medium = \"fog\"\n\
     [[medium]]\nname = \"fog\"\nabsorption = 0.25\nscattering = 0.5\nphase = { type = \"henyey_greenstein\", g = 0.5 }\n\
     [[medium]]\nname = \"milk\"\nabsorption = [0, 1, 3]\nscattering = [4, 3, 2]\n\
@@ -42,7 +42,7 @@ fn round_trip(scene: &Scene) -> (String, Scene, Vec<String>) {
 }
 
 fn scene(tables: &str) -> Scene {
-    load_toml_str(&format!("{HEAD}{tables}{LAMP}"), "test.toml", std::path::Path::new(""))
+    load_toml_str(&format!("{HEAD}{tables}{POINT_LIGHT}"), "test.toml", std::path::Path::new(""))
         .unwrap_or_else(|error| panic!("{error}\n{tables}"))
 }
 

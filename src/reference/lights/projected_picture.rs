@@ -8,7 +8,7 @@ use crate::texture;
 
 /// A texture on the plane at distance 1 before a light, over a rectangle about the light's axis.
 #[derive(Debug)]
-pub struct Picture {
+pub struct ProjectedPicture {
     axis: DVec3,
     right: DVec3,
     up: DVec3,
@@ -17,7 +17,7 @@ pub struct Picture {
     texture: Option<Texture>,
 }
 
-impl Picture {
+impl ProjectedPicture {
     pub fn new(axis: DVec3, up: DVec3, half_extent: [f64; 2], texture: Option<TextureId>, scene: &Scene) -> Self {
         let right = axis.cross(up).normalize_or(DVec3::X);
         let half_extent = DVec2::from(half_extent);

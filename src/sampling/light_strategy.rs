@@ -1,4 +1,4 @@
-//! Which way lights are chosen.
+//! The strategy by which lights are chosen.
 
 use super::light_sampler::LightSampler;
 use super::light_tree::MOST_LIGHTS;
@@ -10,7 +10,7 @@ pub const MANY_LIGHTS: usize = 24;
 
 /// How lights are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LightWay {
+pub enum LightStrategy {
     /// By [`super::light_sampler`].
     Power,
     /// By [`super::light_tree`] among lights inside the scene.
@@ -19,12 +19,12 @@ pub enum LightWay {
     Cells,
 }
 
-impl LightWay {
-    /// The way for these lights. `auto` is the tree for many lights and power for few, where nothing was
+impl LightStrategy {
+    /// The strategy for these lights. `auto` is the tree for many lights and power for few, where nothing was
     /// [learned](crate::learn::settle).
     pub fn of(choice: LightChoice, lights: &LightSampler) -> Self {
         let local = lights.local_count();
-        let can_be = |fewest: usize, way| if (fewest..=MOST_LIGHTS).contains(&local) { way } else { Self::Power };
+        let can_be = |fewest: usize, strategy| if (fewest..=MOST_LIGHTS).contains(&local) { strategy } else { Self::Power };
         match choice {
             LightChoice::Power => Self::Power,
             LightChoice::Auto => can_be(MANY_LIGHTS, Self::Tree),

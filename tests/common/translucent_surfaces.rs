@@ -5,10 +5,10 @@ use std::path::Path;
 use gpt::load;
 use gpt::scene::Scene;
 
-/// A sphere behind and among veils that let three in four rays pass, under a lamp and an environment: paths whose vertices are two or three
-/// more than their edges, and others at the same vertex that met no veil.
-pub fn veils() -> Scene {
-    let veil = |corner: &str| {
+/// A sphere behind and among translucent surfaces that let three in four rays pass, under a lamp and an environment: paths whose vertices are two or three
+/// more than their edges, and others at the same vertex that met no translucent surface.
+pub fn translucent_surfaces() -> Scene {
+    let sheet = |corner: &str| {
         format!(
             "[[shape]]\ntype = \"rectangle\"\nmaterial = \"veil\"\ncorner = {corner}\nedge_u = [2.4, 0, 0.3]\nedge_v = [0, 2.4, 0]\n"
         )
@@ -61,9 +61,9 @@ material = "lamp"
 type = "environment"
 radiance = [0.3, 0.4, 0.6]
 {}{}{}"#,
-        veil("[-0.4, 0.1, 1.6]"),
-        veil("[-0.2, 0.2, 1.2]"),
-        veil("[-2.2, 0.1, -1.1]")
+        sheet("[-0.4, 0.1, 1.6]"),
+        sheet("[-0.2, 0.2, 1.2]"),
+        sheet("[-2.2, 0.1, -1.1]")
     );
-    load::load_toml_str(&text, "veils", Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
+    load::load_toml_str(&text, "translucent surfaces", Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
 }

@@ -1,4 +1,4 @@
-//! Many materials or shapes at once, each in a cell of a wall of its own: one kernel where each alone would take one. What differs is told
+//! Many materials or shapes at once, each in a cell of a grid of its own: one kernel where each alone would take one. What differs is told
 //! by the cells in which its paths begin.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,13 +35,13 @@ material = "floor"
 pub type Change<'a> = (&'a str, &'a dyn Fn(&mut Scene));
 
 /// A scene with a name for each of its cells, row by row from the top.
-pub struct Wall {
+pub struct TestGrid {
     pub scene: Scene,
     names: Vec<String>,
     columns: usize,
 }
 
-impl Wall {
+impl TestGrid {
     /// `cell` gives the tables of the cell with this number and this middle; `tables` are those that all share. A material that several cells
     /// define in the same words is defined once.
     pub fn new(columns: usize, tables: &str, names: Vec<String>, cell: impl Fn(usize, [f64; 2]) -> String) -> Self {
@@ -52,7 +52,7 @@ impl Wall {
             SIDE * columns,
             SIDE * rows
         );
-        // Above the wall, and not in sight: its front is towards the wall.
+        // Above the grid, and not in sight: its front is towards the grid.
         let top = 0.5 * rows as f64;
         text += &format!(
             "[[shape]]\ntype = \"rectangle\"\ncorner = [-1, {}, 1]\nedge_u = [2, 0, 0]\nedge_v = [0, -0.8, 1.2]\nmaterial = \"lamp\"\n{tables}",
@@ -68,7 +68,7 @@ impl Wall {
                 }
             }
         }
-        let scene = load::load_toml_str(&text, "wall.toml", BUMPS.path()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let scene = load::load_toml_str(&text, "grid.toml", BUMPS.path()).unwrap_or_else(|error| panic!("{error}\n{text}"));
         Self { scene, names, columns }
     }
 
@@ -97,7 +97,7 @@ impl Wall {
         assert!(verdict.agrees, "{what}: paths begin at {:?}: {verdict:#?}", self.cells_of(&verdict));
     }
 
-    /// The control: a reference that renders another wall is noticed. The device has the same kernel each time, and two samples are enough.
+    /// The control: a reference that renders another grid is noticed. The device has the same kernel each time, and two samples are enough.
     pub fn assert_notices(&self, changes: &[Change<'_>]) {
         let Some(device) = DEVICE.as_ref() else { return };
         let mut scene = self.scene.clone();

@@ -1,4 +1,4 @@
-//! Instances that give light: lamps are drawn one by one, so each stands in the scene as shapes of its own.
+//! Instances that emit: area lights are sampled one by one, so each stands in the scene as shapes of its own.
 
 use std::sync::Arc;
 
@@ -12,16 +12,16 @@ const MOST_TRIANGLES: usize = 20_000_000;
 
 impl Resolver<'_> {
     /// True, for each group, where some face of it emits.
-    pub(super) fn lit_groups(&self, emits: &[bool]) -> Vec<bool> {
-        let is_lit = |group: &Group| group.shapes.iter().flat_map(Shape::materials).any(|id| emits[id]);
-        self.scene.groups.iter().map(is_lit).collect()
+    pub(super) fn emissive_groups(&self, emits: &[bool]) -> Vec<bool> {
+        let is_emissive = |group: &Group| group.shapes.iter().flat_map(Shape::materials).any(|id| emits[id]);
+        self.scene.groups.iter().map(is_emissive).collect()
     }
 
     /// The meshes of the group for each place.
     ///
     /// # Errors
     /// In words, that they are too many.
-    pub(super) fn lit_copies(&self, instances: &Instances) -> Result<Vec<Shape>, String> {
+    pub(super) fn emissive_copies(&self, instances: &Instances) -> Result<Vec<Shape>, String> {
         let group = &self.scene.groups[instances.group];
         let triangles = group.triangles().saturating_mul(instances.places.len());
         if triangles > MOST_TRIANGLES {

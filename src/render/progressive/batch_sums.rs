@@ -8,7 +8,7 @@ use crate::film::Band;
 const BAND_ROWS: usize = 64;
 
 /// Weighted sums over batches: 16 bytes a pixel. Batches are few (they grow with what is done), so f32 keeps six digits of radiance.
-pub struct Picture {
+pub struct BatchSums {
     width: usize,
     height: usize,
     /// Per pixel: the sum of means, each by its number of samples.
@@ -19,7 +19,7 @@ pub struct Picture {
     samples: Vec<f64>,
 }
 
-impl Picture {
+impl BatchSums {
     pub fn new([width, height]: [u32; 2]) -> Self {
         let (width, height) = (width as usize, height as usize);
         let pixels = width * height;
@@ -43,7 +43,7 @@ impl Picture {
         self.samples[first_row..first_row + band.rows as usize].iter_mut().for_each(|sum| *sum += spent);
     }
 
-    /// Makes [`Picture::new`] with sums of earlier batches; None where they are of another size.
+    /// Makes [`BatchSums::new`] with sums of earlier batches; None where they are of another size.
     pub fn with_sums([width, height]: [u32; 2], radiance: Vec<[f32; 3]>, counts: Vec<u32>, samples: Vec<f64>) -> Option<Self> {
         let (width, height) = (width as usize, height as usize);
         let fits = radiance.len() == width * height && counts.len() == radiance.len() && samples.len() == height;
@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn rows_are_weighted_means_of_what_reached_them() {
-        let mut picture = Picture::new([2, 4]);
+        let mut picture = BatchSums::new([2, 4]);
         picture.add(&band(0, 4, 1, 1.0), None, 1.0);
         picture.add(&band(0, 2, 3, 5.0), None, 1.0);
         assert_eq!(picture.samples(), 1.0);
@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn pixels_that_took_no_part_keep_their_mean() {
-        let mut picture = Picture::new([2, 1]);
+        let mut picture = BatchSums::new([2, 1]);
         picture.add(&band(0, 1, 2, 1.0), None, 1.0);
         picture.add(&band(0, 1, 6, 5.0), Some(&[false, true]), 0.5);
         assert_eq!(picture.samples(), 5.0);
@@ -161,10 +161,10 @@ mod tests {
         assert_eq!(means, [1.0, 4.0]);
     }
 
-    /// A batch that ended in the middle of a sweep counts, pixel by pixel, as far as it got.
+    /// A batch that ended in the middle of an iteration counts, pixel by pixel, as far as it got.
     #[test]
     fn pixels_are_weighed_by_their_own_samples() {
-        let mut picture = Picture::new([2, 1]);
+        let mut picture = BatchSums::new([2, 1]);
         picture.add(&band(0, 1, 2, 1.0), None, 1.0);
         picture.add(&Band { counts: Some(vec![6, 0]), ..band(0, 1, 0, 5.0) }, None, 1.0);
         let mut found = None;
@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn rows_without_samples_are_not_delivered() {
-        let mut picture = Picture::new([2, 3]);
+        let mut picture = BatchSums::new([2, 3]);
         picture.add(&band(0, 1, 1, 1.0), None, 1.0);
         let mut rows = 0;
         let mut count = |band: Band| {

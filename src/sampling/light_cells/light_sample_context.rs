@@ -1,18 +1,18 @@
-//! Points that light is sampled from.
+//! Reference points of light samples.
 
 use glam::DVec3;
 
 use crate::sampling::cell_grid::facing;
 
-/// A point of a surface that light is sampled from, and the way in which the surface faces there.
+/// The reference point of light samples, and the way in which the surface faces there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LitPoint {
+pub struct LightSampleContext {
     pub point: DVec3,
     /// The way in which the surface faces, by [`facing`].
     pub facing: u32,
 }
 
-impl LitPoint {
+impl LightSampleContext {
     /// `normal`: of the surface, on the side from where it is seen.
     pub fn new(point: DVec3, normal: DVec3) -> Self {
         Self { point, facing: facing(normal) }
@@ -20,7 +20,7 @@ impl LitPoint {
 }
 
 /// A point of which nothing else matters.
-impl From<DVec3> for LitPoint {
+impl From<DVec3> for LightSampleContext {
     fn from(point: DVec3) -> Self {
         Self { point, facing: 0 }
     }

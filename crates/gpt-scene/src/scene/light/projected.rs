@@ -22,7 +22,7 @@ pub struct SpotLight {
     pub falloff_degrees: f64,
     pub curve: FalloffCurve,
     /// The picture that multiplies the intensity and fills the square around the cone.
-    pub picture: Option<ThrownPicture>,
+    pub picture: Option<ProjectedTexture>,
 }
 
 /// How the intensity of a spot light falls from 1 to 0 between its two angles.
@@ -37,9 +37,9 @@ pub enum FalloffCurve {
     Linear,
 }
 
-/// A texture that a light throws.
+/// A texture that a light projects.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ThrownPicture {
+pub struct ProjectedTexture {
     pub texture: TextureId,
     /// The direction in which the texture's v grows, projected across the light's direction; u grows to the right, as seen from the light.
     pub up: DVec3,
@@ -134,7 +134,7 @@ impl DeltaLight for SpotLight {
     }
 }
 
-/// A light from one point that throws a rectangular picture: on a plane across its direction at distance 1, which faces it, the picture makes
+/// A light from one point that projects a rectangular picture: on a plane across its direction at distance 1, which faces it, the picture makes
 /// `irradiance` times the texture's colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projector {

@@ -20,7 +20,7 @@ const SHARE: u32 = 20;
 
 /// The picture as it was at some time.
 #[derive(Debug, Clone, Default)]
-pub struct Picture {
+pub struct LivePicture {
     /// Counts pictures, so that who has seen one knows.
     pub number: u64,
     pub width: u32,
@@ -70,12 +70,12 @@ pub enum Phase {
 }
 
 #[derive(Default)]
-struct Shown {
+struct LiveContent {
     /// Counts changes of anything.
     version: u64,
     status: Status,
     began: Option<Instant>,
-    picture: Arc<Picture>,
+    picture: Arc<LivePicture>,
     layers: Vec<LayerImage>,
     /// When it was last asked for; who receives every picture counts as always asking.
     asked: Option<Instant>,
@@ -88,8 +88,8 @@ struct Shown {
 
 /// Everything that is shown.
 #[derive(Default)]
-pub struct Board {
-    shown: Mutex<Shown>,
+pub struct LiveState {
+    shown: Mutex<LiveContent>,
     changed: Condvar,
 }
 
@@ -98,29 +98,29 @@ pub struct Board {
 pub struct View {
     pub version: u64,
     pub status: Status,
-    pub picture: Arc<Picture>,
+    pub picture: Arc<LivePicture>,
     pub layers: Vec<LayerImage>,
     /// There will be nothing newer.
     pub is_closed: bool,
 }
 
-impl Board {
+impl LiveState {
     /// Nothing is there yet; the page begins with the display of previews.
     pub fn new(display: &Display) -> Self {
-        let board = Self::default();
-        board.change(|shown| {
+        let state = Self::default();
+        state.change(|shown| {
             shown.status.exposure = display.exposure.to_string();
             shown.status.tonemap = display.tone_curve.name();
         });
-        board
+        state
     }
 
-    fn lock(&self) -> MutexGuard<'_, Shown> {
+    fn lock(&self) -> MutexGuard<'_, LiveContent> {
         // The content is whole whatever panicked while holding it.
         self.shown.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn change(&self, change: impl FnOnce(&mut Shown)) {
+    fn change(&self, change: impl FnOnce(&mut LiveContent)) {
         let mut shown = self.lock();
         change(&mut shown);
         shown.version += 1;
@@ -180,7 +180,7 @@ impl Board {
     /// Rows of a picture of this size replace those that are shown. `made_since`: when the making of them began.
     pub fn rows(&self, rows: Band, height: u32, made_since: Instant) {
         let is_whole = rows.first_row == 0 && rows.rows == height;
-        let mut picture = Picture::default();
+        let mut picture = LivePicture::default();
         let mut part = None;
         if is_whole {
             picture.take(rows, height)
@@ -238,7 +238,7 @@ fn seconds_since(began: Option<Instant>) -> f64 {
     began.map_or(0.0, |began| began.elapsed().as_secs_f64())
 }
 
-impl Picture {
+impl LivePicture {
     /// Takes rows over, in a picture of their width and of this height.
     fn take(&mut self, rows: Band, height: u32) {
         let pixels = rows.width as usize * height as usize;
@@ -306,10 +306,10 @@ mod tests {
 
     #[test]
     fn rows_stand_where_they_belong_and_errors_are_those_of_means() {
-        let board = Board::default();
-        board.rows(rows(0, 3, 1.0), 3, Instant::now());
-        board.rows(rows(1, 1, 2.0), 3, Instant::now());
-        let view = board.view_after(0, Duration::ZERO, false);
+        let state = LiveState::default();
+        state.rows(rows(0, 3, 1.0), 3, Instant::now());
+        state.rows(rows(1, 1, 2.0), 3, Instant::now());
+        let view = state.view_after(0, Duration::ZERO, false);
         let picture = view.picture;
         assert_eq!((picture.number, picture.width, picture.height), (2, 2, 3));
         assert_eq!(picture.mean.iter().map(|mean| mean[0]).collect::<Vec<_>>(), [1.0, 1.0, 2.0, 2.0, 1.0, 1.0]);
@@ -320,24 +320,24 @@ mod tests {
             (4.0 * 0.25 / (1.0 + gpt::compare::RELATIVE_EPSILON) + 2.0 * 0.25 / (4.0 + gpt::compare::RELATIVE_EPSILON)) / 6.0;
         assert!((picture.expected_error().expect("it is known") - expected).abs() < 1e-6);
         let unknown = Band { second_moment: Vec::new(), ..rows(0, 3, 1.0) };
-        board.rows(unknown, 3, Instant::now());
-        assert_eq!(board.view_after(0, Duration::ZERO, false).picture.expected_error(), None);
+        state.rows(unknown, 3, Instant::now());
+        assert_eq!(state.view_after(0, Duration::ZERO, false).picture.expected_error(), None);
         // Another size: nothing of the old picture stays.
-        board.rows(Band { width: 1, ..rows(0, 1, 5.0) }, 4, Instant::now());
-        assert_eq!(board.view_after(0, Duration::ZERO, false).picture.mean[2..], [[0.0; 3]; 2]);
+        state.rows(Band { width: 1, ..rows(0, 1, 5.0) }, 4, Instant::now());
+        assert_eq!(state.view_after(0, Duration::ZERO, false).picture.mean[2..], [[0.0; 3]; 2]);
     }
 
     #[test]
     fn pictures_are_made_for_somebody_and_not_too_often() {
-        let board = Board::default();
-        assert!(!board.wants_picture(), "nobody looks");
-        let _ = board.view_after(0, Duration::ZERO, true);
-        assert!(board.wants_picture());
-        board.rows(rows(0, 3, 1.0), 3, Instant::now());
-        assert!(!board.wants_picture(), "there was one just now");
-        board.begin("next");
-        assert!(board.wants_picture(), "the first of a render is due at once");
-        let other = Board::default();
+        let state = LiveState::default();
+        assert!(!state.wants_picture(), "nobody looks");
+        let _ = state.view_after(0, Duration::ZERO, true);
+        assert!(state.wants_picture());
+        state.rows(rows(0, 3, 1.0), 3, Instant::now());
+        assert!(!state.wants_picture(), "there was one just now");
+        state.begin("next");
+        assert!(state.wants_picture(), "the first of a render is due at once");
+        let other = LiveState::default();
         other.receivers(1);
         assert!(other.wants_picture());
         other.receivers(-1);
@@ -346,13 +346,13 @@ mod tests {
 
     #[test]
     fn who_waits_is_woken() {
-        let board = Arc::new(Board::default());
-        let waiting = board.clone();
+        let state = Arc::new(LiveState::default());
+        let waiting = state.clone();
         let waiter = std::thread::spawn(move || waiting.view_after(0, Duration::from_secs(60), true).status.done);
-        while board.lock().asked.is_none() {
+        while state.lock().asked.is_none() {
             std::thread::yield_now();
         }
-        board.progress(Phase::Rendering, 7, 9);
+        state.progress(Phase::Rendering, 7, 9);
         assert_eq!(waiter.join().expect("it does not panic"), 7);
     }
 }

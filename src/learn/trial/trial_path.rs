@@ -10,22 +10,22 @@ use crate::reference::trace::{LightConnection, PathVisitor};
 use crate::scene::RenderSettings;
 use crate::spectrum::Spectrum;
 
-/// A record of a path that tells how other ways would trace it. Light in view is no part of that: no other
+/// A record of a path, with statistics of how other ways would trace it. Light in view is no part of that: no other
 /// way changes it.
 pub trait Record {
-    type Told: Sum;
+    type Statistics: Sum;
     /// The record wants [`PathVisitor::COMPARES`].
     const COMPARES: bool = false;
 
     fn new(settings: &RenderSettings) -> Self;
     /// The result at the path's end.
-    fn told(&self) -> Self::Told;
+    fn statistics(&self) -> Self::Statistics;
 
     /// A ray of the path, or a shadow ray, was traced.
     fn traced(&mut self, _rays: Rays) {}
     /// The path met a surface.
     fn met(&mut self, _depth: u32, _throughput: Spectrum) {}
-    /// The next direction is told as by [`PathVisitor::unguided`].
+    /// The next direction is given as by [`PathVisitor::unguided`].
     fn unguided(&mut self, _times: f64) {}
     /// Light was sampled.
     fn light(&mut self, _connection: &LightConnection) {}
@@ -39,15 +39,15 @@ pub trait Record {
 
 /// Nothing is asked.
 impl Record for () {
-    type Told = ();
+    type Statistics = ();
 
     fn new(_: &RenderSettings) -> Self {}
 
-    fn told(&self) {}
+    fn statistics(&self) {}
 }
 
 /// A path that is followed.
-pub struct Watched<R> {
+pub struct TrialPath<R> {
     pub rays: Rays,
     /// Light of its first edge, on which it may have gone through null surfaces.
     pub in_view: Spectrum,
@@ -55,7 +55,7 @@ pub struct Watched<R> {
     pub record: R,
 }
 
-impl<R: Record> Watched<R> {
+impl<R: Record> TrialPath<R> {
     pub fn new(settings: &RenderSettings) -> Self {
         Self { rays: Rays::default(), in_view: Spectrum::BLACK, scatters: false, record: R::new(settings) }
     }
@@ -74,7 +74,7 @@ impl<R: Record> Watched<R> {
     }
 }
 
-impl<R: Record> PathVisitor for Watched<R> {
+impl<R: Record> PathVisitor for TrialPath<R> {
     const COMPARES: bool = R::COMPARES;
 
     fn surface(&mut self, depth: u32, _: &Surface, _: DVec3, throughput: Spectrum) {

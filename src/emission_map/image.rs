@@ -1,4 +1,4 @@
-//! Lamps that emit by one image alone.
+//! Area lights that emit by one image alone.
 
 use glam::{DMat2, DVec2};
 
@@ -9,16 +9,16 @@ use crate::texture::Coordinates;
 
 /// Most cells along either side of a square. Of larger pictures, cells hold several texels.
 const MOST_CELLS: f64 = 512.0;
-/// Pieces of texels that parts of lamps are looked up in, of all parts of a scene together.
+/// Pieces of texels that parts of area lights are looked up in, of all parts of a scene together.
 const MOST_PIECES: f64 = 8_388_608.0;
 /// The number of pieces along either side of a part, where there are few parts and where there are many.
 const PIECES: [f64; 2] = [64.0, 2.0];
 /// Texels up to which interpolation is looked at in quarters of texels, and in halves.
 const FINE_TEXELS: [usize; 2] = [1 << 16, 1 << 20];
 
-/// The luminance of one picture as it lies on a lamp.
+/// The luminance of one picture as it lies on an area light.
 #[derive(Debug, Clone)]
-pub struct Picture {
+pub struct EmissionImage {
     /// From finest to coarsest.
     levels: Vec<Level>,
     wrap: [TextureWrap; 2],
@@ -43,7 +43,7 @@ fn shown<'a>(scene: &'a Scene, material: &Material) -> Option<(ColorInput, &'a I
     (image.filter != TextureFilter::Triangle && texture.times.is_none()).then_some((input, image))
 }
 
-impl Picture {
+impl EmissionImage {
     /// The map of a scene whose textured area lights have so many parts. None where the material emits by
     /// more than an image.
     pub fn of(scene: &Scene, material: &Material, parts: usize) -> Option<Self> {
