@@ -22,7 +22,7 @@ fn intersect_stored(ray: PreparedRay, index: u32, words: PrimitiveWords, hit: pt
 #if ONLY_TRIANGLES_IN_HIERARCHY
     let found = intersect_triangle(ray, t_max, p0.xyz, p1.xyz, p2.xyz);
 #else
-    let found = intersect_stored(ray, t_max, primitive_kind(p0.w), p0.xyz, p1.xyz, p2.xyz);
+    let found = intersect_shape(ray, t_max, primitive_kind(p0.w), p0.xyz, p1.xyz, p2.xyz);
 #endif
     if found.x > 0.0 {
         *hit = world_hit(found.x, index, found.y, found.z);

@@ -232,7 +232,6 @@ impl PathVisitor for Trainee {
         self.throughput = throughput;
     }
 
-    /// Guides are for surfaces: no direction is above a place within a medium.
     fn medium(&mut self, _depth: u32, position: DVec3, _wo: DVec3, throughput: Spectrum) {
         (self.position, self.normal, self.throughput) = (position, DVec3::ZERO, throughput);
         self.radiance_before = self.radiance;
@@ -259,7 +258,7 @@ impl PathVisitor for Trainee {
         let throughput = (self.throughput * sample.weight).sum();
         if let Density::SolidAngle(pdf) = sample.density
             && throughput > 0.0
-            && sample.wi.dot(self.normal) > 0.0
+            && (self.normal == DVec3::ZERO || sample.wi.dot(self.normal) > 0.0)
         {
             let [position, normal, wi] = [self.position, self.normal, sample.wi].map(|vector| vector.as_vec3());
             let arrival = Arrival { position, normal, wi, radiance: 0.0, pdf: pdf as f32, sent_on: [0.0; 2] };

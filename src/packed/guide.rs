@@ -8,6 +8,7 @@ use crate::shader::shared::shared_constants;
 shared_constants!(constants {
     const GUIDE_ROWS: u32 = table::GUIDE_ROWS;
     const GUIDE_COLUMNS: u32 = table::GUIDE_COLUMNS;
+    const GUIDE_FACING_IN_MEDIA: u32 = table::GUIDE_FACING_IN_MEDIA;
     const GUIDE_CELL_WORDS: u32 = table::GUIDE_CELL_WORDS;
     const GRID_HEADER_WORDS: u32 = cell_grid::GRID_HEADER_WORDS;
     const GUIDED_SHARE: f32 = table::GUIDED_SHARE;

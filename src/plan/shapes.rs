@@ -28,9 +28,9 @@ pub fn geometry_wgsl() -> String {
     let points = "p0: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>";
     let stored =
         finite().map(|kind| (kind, kind.switch_in_hierarchy(), format!("intersect_{}(ray, t_max, p0, p1, p2)", kind.file())));
-    let signature = format!("intersect_stored(ray: PreparedRay, t_max: f32, kind: u32, {points}) -> vec3<f32>");
+    let signature = format!("intersect_shape(ray: PreparedRay, t_max: f32, kind: u32, {points}) -> vec3<f32>");
     text += &dispatch(&signature, stored, "vec3<f32>(-1.0, 0.0, 0.0)");
-    text += "\n#if TRANSPARENT_SHADOWS\n// Where a ray crosses a primitive after its first crossing, as intersect_stored: (t or -1, and where it is met).\n";
+    text += "\n#if TRANSPARENT_SHADOWS\n// Where a ray crosses a primitive after its first crossing, as intersect_shape: (t or -1, and where it is met).\n";
     let again = all().filter(|kind| kind.curvature() == Curvature::Curved);
     let again = again.map(|kind| (kind, kind.switch(), format!("intersect_{}_again(ray, t_max, p0, p1, p2)", kind.file())));
     let signature = format!("intersect_again(ray: PreparedRay, t_max: f32, kind: u32, {points}) -> vec3<f32>");

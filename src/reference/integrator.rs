@@ -18,7 +18,7 @@ use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::emitted;
 use super::free_flight::fly;
-use super::guided::GuidedBsdf;
+use super::guided::{GuidedBsdf, GuidedPhase};
 use super::intersect::{Hit, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::medium::{MediumStack, given_off, left};
@@ -264,7 +264,8 @@ impl Integrator {
         visitor.medium(path.depth, position, wo, path.throughput);
         let filling = self.media.filling(path.stack.innermost());
         let (Some(filling), true) = (filling, path.depth != self.scene.render.max_depth) else { return false };
-        let scatterer = Scatterer::Medium(Scattering { phase: &filling.phase, wo, is_dark: filling.is_dark });
+        let scattering = Scattering { phase: &filling.phase, wo, is_dark: filling.is_dark };
+        let scatterer = Scatterer::Medium(GuidedPhase::new(self.guide(), position, scattering));
         self.scatter(path, &Interaction::medium(position, wo), &scatterer, sampler, visitor)
     }
 

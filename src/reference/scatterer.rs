@@ -3,10 +3,9 @@
 use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample, Density, Evaluation};
-use super::guided::GuidedBsdf;
+use super::guided::{GuidedBsdf, GuidedPhase};
 use super::intersect::{Surface, SurfacePoint};
 use super::medium::MediumStack;
-use super::phase::Scattering;
 use crate::scene::Media;
 
 /// The place where a path scatters.
@@ -53,7 +52,7 @@ impl<'a> Interaction<'a> {
 #[derive(Debug, Clone, Copy)]
 pub enum Scatterer<'a> {
     Surface(GuidedBsdf<'a>),
-    Medium(Scattering<'a>),
+    Medium(GuidedPhase<'a>),
 }
 
 impl Scatterer<'_> {
@@ -61,7 +60,7 @@ impl Scatterer<'_> {
     pub fn evaluate(&self, wi: DVec3) -> Evaluation {
         match self {
             Self::Surface(bsdf) => bsdf.evaluate(wi),
-            Self::Medium(scattering) => scattering.evaluate(wi),
+            Self::Medium(phase) => phase.evaluate(wi),
         }
     }
 
@@ -69,7 +68,7 @@ impl Scatterer<'_> {
     pub fn sample(&self, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
         match self {
             Self::Surface(bsdf) => bsdf.sample(u_lobe, u1, u2),
-            Self::Medium(scattering) => scattering.sample(u_lobe, u1, u2),
+            Self::Medium(phase) => phase.sample(u_lobe, u1, u2),
         }
     }
 
@@ -78,7 +77,7 @@ impl Scatterer<'_> {
         match self {
             Self::Surface(bsdf) => bsdf.has_non_delta_lobe(),
             // No light sample within a dark medium finds a light
-            Self::Medium(scattering) => !scattering.is_dark,
+            Self::Medium(phase) => !phase.scattering.is_dark,
         }
     }
 
@@ -86,23 +85,23 @@ impl Scatterer<'_> {
     pub fn wo(&self) -> DVec3 {
         match self {
             Self::Surface(bsdf) => bsdf.view().wo,
-            Self::Medium(scattering) => scattering.wo,
+            Self::Medium(phase) => phase.scattering.wo,
         }
     }
 
-    /// [`GuidedBsdf::sent_on`] of surfaces with a guide.
+    /// [`GuidedBsdf::sent_on`] where there is a guide.
     pub fn sent_on(&self) -> Option<[f64; 2]> {
         match self {
             Self::Surface(bsdf) => bsdf.sent_on(),
-            Self::Medium(_) => None,
+            Self::Medium(phase) => phase.sent_on(),
         }
     }
 
-    /// [`GuidedBsdf::unguided`]; media have no guide.
+    /// [`GuidedBsdf::unguided`]
     pub fn unguided(&self, wi: DVec3, density: Density) -> f64 {
         match self {
             Self::Surface(bsdf) => bsdf.unguided(wi, density),
-            Self::Medium(_) => 1.0,
+            Self::Medium(phase) => phase.unguided(wi, density),
         }
     }
 }

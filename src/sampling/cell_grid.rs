@@ -86,9 +86,9 @@ impl CellGrid {
         self.counts.map(|count| [0, count])
     }
 
-    /// An index of 0 for all boxes of all facings.
-    pub fn empty_index(&self) -> Vec<u32> {
-        vec![0; FACINGS * self.counts.iter().product::<u32>() as usize]
+    /// An index of 0 for all boxes of so many facings.
+    pub fn empty_index(&self, facings: usize) -> Vec<u32> {
+        vec![0; facings * self.counts.iter().product::<u32>() as usize]
     }
 
     /// The box that a point is in. In f32, as the device has it: of a point far from where the grid begins, it loses more than the error of

@@ -89,6 +89,7 @@ shader_files![
     "shading/path/arrival.wgsl",
     "shading/path/guide.wgsl",
     "shading/path/guided.wgsl",
+    "shading/path/guided_phase.wgsl",
     "shading/path/layer.wgsl",
     "shading/path/mis.wgsl",
     "shading/path/path.wgsl",

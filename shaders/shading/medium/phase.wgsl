@@ -41,6 +41,16 @@ fn evaluate_phase(phase: u32, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
     return BsdfValue(Spectrum(pdf), pdf);
 }
 
+// About how evenly light is spread over directions, from 0 to 1.
+fn phase_evenness(phase: u32) -> f32 {
+    var evenness = 0.0;
+    for (var index = 0u; index < phase_count(phase); index++) {
+        let lobe = phase_lobe(phase, index);
+        evenness += lobe.weight * select(1.0 - abs(lobe.g), 1.0, lobe.kind == PHASE_RAYLEIGH);
+    }
+    return evenness;
+}
+
 // 1 less the cosine of the angle with the lobe's peak, at a share of the lobe.
 fn off_peak(lobe: PhaseLobe, u: f32) -> f32 {
     if lobe.kind == PHASE_RAYLEIGH {

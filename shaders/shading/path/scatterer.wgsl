@@ -6,6 +6,11 @@
 #import shading/surface.wgsl
 #import shading/path/guide.wgsl
 #import shading/path/guided.wgsl
+#if GUIDE
+#if SCATTERING
+#import shading/path/guided_phase.wgsl
+#endif
+#endif
 #import shading/medium/phase.wgsl
 #import shading/texture/normal_shadowing.wgsl
 
@@ -37,6 +42,9 @@ fn scatterer_at(surface: Surface, phase: u32, wo: vec3<f32>, choice: f32) -> Sca
     if phase != 0u {
         var scatterer: Scatterer;
         scatterer.phase = phase;
+#if GUIDE
+        scatterer.guide = guide_in_medium(surface.position, phase_evenness(phase));
+#endif
         return scatterer;
     }
 #endif
@@ -58,7 +66,11 @@ fn has_non_delta_scattering(scatterer: Scatterer) -> bool {
 fn evaluate_scatterer(scatterer: Scatterer, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
 #if SCATTERING
     if scatterer.phase != 0u {
+#if GUIDE
+        return evaluate_guided_phase(scatterer.guide, scatterer.phase, wo, wi);
+#else
         return evaluate_phase(scatterer.phase, wo, wi);
+#endif
     }
 #endif
 #if GUIDE
@@ -80,9 +92,13 @@ fn scatter_by(
     if scatterer.phase != 0u {
         var light_value = no_value();
         if samples_light {
-            light_value = evaluate_phase(scatterer.phase, wo, light_wi);
+            light_value = evaluate_scatterer(scatterer, surface, wo, light_wi);
         }
+#if GUIDE
+        return Scattering(light_value, sample_guided_phase(scatterer.guide, scatterer.phase, wo, choice, u, v));
+#else
         return Scattering(light_value, sample_phase(scatterer.phase, wo, choice, u, v));
+#endif
     }
 #endif
     if HAS_GUIDE {

@@ -3,11 +3,14 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::table::{BINS, CELL_WORDS, GUIDE_COLUMNS, GUIDE_ROWS, Guide, WHOLE, bin, packed_axis, unpacked_axis};
+use super::table::{
+    BINS, CELL_WORDS, Domain, GUIDE_COLUMNS, GUIDE_FACING_IN_MEDIA, GUIDE_FACINGS, GUIDE_ROWS, Guide, WHOLE, packed_axis,
+    unpacked_axis,
+};
 use crate::math::Frame;
-use crate::sampling::cell_grid::{CellGrid, FACINGS, Region, facing};
+use crate::sampling::cell_grid::{CellGrid, Region, facing};
 
-/// Boxes of the grid at most, for each of six facings.
+/// Boxes of the grid at most, for each facing.
 const MOST_BOXES: usize = 1 << 16;
 /// Cells that there are about at most; four times as many where arrivals are spread badly.
 const MOST_CELLS: usize = 8192;
@@ -22,11 +25,11 @@ const LEAST_EVEN_SHARE: f64 = 0.03;
 /// other.
 const SPILL: f64 = 0.1;
 
-/// Light that arrived at a point of a surface by one direction. In single precision: there are millions of them.
+/// Light that arrived at a point of a surface or of a medium by one direction. In single precision: there are millions of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arrival {
     pub position: Vec3,
-    /// On the side from where the point was seen.
+    /// On the side from where the point was seen; 0 within media.
     pub normal: Vec3,
     pub wi: Vec3,
     /// An estimate of the radiance, light left out that light sampling finds.
@@ -35,6 +38,12 @@ pub struct Arrival {
     pub pdf: f32,
     /// Estimates of what the surface sends on, per throughput: of light that comes by way of its scattering, and of all light.
     pub sent_on: [f32; 2],
+}
+
+impl Arrival {
+    fn is_in_medium(&self) -> bool {
+        self.normal == Vec3::ZERO
+    }
 }
 
 /// The parts that a guide is put together from.
@@ -63,10 +72,11 @@ pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
     let grid = CellGrid::around(arrivals.par_iter().map(|arrival| arrival.position.as_dvec3()), MOST_BOXES);
     let place = |arrival: &Arrival| {
         let place = grid.place(arrival.position.as_dvec3())?;
-        Some((facing(arrival.normal.as_dvec3()) as usize, place.map(|number| number as u16)))
+        let facing = if arrival.is_in_medium() { GUIDE_FACING_IN_MEDIA } else { facing(arrival.normal.as_dvec3()) };
+        Some((facing as usize, place.map(|number| number as u16)))
     };
     let placed: Vec<Option<(usize, BoxIndex)>> = arrivals.par_iter().map(place).collect();
-    let mut of_facings: [Vec<u32>; FACINGS] = Default::default();
+    let mut of_facings: [Vec<u32>; GUIDE_FACINGS] = Default::default();
     for (number, facing) in placed.iter().enumerate().filter_map(|(number, placed)| Some((number, placed.as_ref()?.0))) {
         of_facings[facing].push(number as u32);
     }
@@ -78,7 +88,7 @@ pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
 }
 
 fn guide(grid: &CellGrid, cells: &[Cell]) -> Guide {
-    let mut index = grid.empty_index();
+    let mut index = grid.empty_index(GUIDE_FACINGS);
     for (number, cell) in cells.iter().enumerate() {
         grid.fill(&mut index, cell.facing, cell.region, number as u32 + 1);
     }
@@ -115,22 +125,27 @@ impl Learner<'_> {
                 return cells;
             }
         }
-        self.cell(members).map(|words| Cell { facing, region, words }).into_iter().collect()
+        self.cell(facing, members).map(|words| Cell { facing, region, words }).into_iter().collect()
     }
 
     /// The words of a cell. None where no light arrives.
-    fn cell(&self, members: &[u32]) -> Option<[u32; CELL_WORDS]> {
+    fn cell(&self, facing: u32, members: &[u32]) -> Option<[u32; CELL_WORDS]> {
         let arrivals = || members.iter().map(|&number| &self.arrivals[number as usize]);
-        let normal: DVec3 = arrivals().map(|arrival| arrival.normal.as_dvec3()).sum();
-        let axis = packed_axis(normal.try_normalize()?);
-        let frame = Frame::around(unpacked_axis(axis));
+        let (axis, domain) = if facing == GUIDE_FACING_IN_MEDIA {
+            (0, Domain::Sphere)
+        } else {
+            let normal: DVec3 = arrivals().map(|arrival| arrival.normal.as_dvec3()).sum();
+            let axis = packed_axis(normal.try_normalize()?);
+            (axis, Domain::Hemisphere(Frame::around(unpacked_axis(axis))))
+        };
         // A direction is worth drawing in proportion to the root of what its squared radiance is on average: that covers what the rest of the
         // path will scatter as well (Rath et al. 2020).
         let mut squares = [0.0; BINS];
         for arrival in arrivals() {
-            let (local, cosine) = (frame.to_local(arrival.wi.as_dvec3()), f64::from(arrival.wi.dot(arrival.normal)));
-            if local.z > 0.0 && cosine > 0.0 {
-                let (row, column) = bin(local);
+            let cosine = if arrival.is_in_medium() { 1.0 } else { f64::from(arrival.wi.dot(arrival.normal)) };
+            if let Some(((row, column), _)) = domain.bin(arrival.wi.as_dvec3())
+                && cosine > 0.0
+            {
                 squares[(row * GUIDE_COLUMNS + column) as usize] +=
                     f64::from(arrival.radiance).powi(2) * cosine / f64::from(arrival.pdf);
             }

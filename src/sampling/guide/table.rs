@@ -2,22 +2,27 @@
 //!
 //! The table begins as [`crate::sampling::cell_grid`] says, with the cell's number from 1 in the index, or 0
 //! where there is no guide.
-//! Then come [`GUIDE_CELL_WORDS`] for each cell: its axis, and its bins, row after row. Of a bin the lower half is its start, the sum of the shares of all
-//! bins before it, and the upper half its share, in 65536ths. Then, as the bits of f32, what a surface there sends on ([`GuideCell::sent_on`]).
+//! Places within media have a facing of their own behind those of surfaces.
+//! Then come [`GUIDE_CELL_WORDS`] for each cell: its axis, which is of no use within media, and its bins, row after row. Of a bin the lower half is its start, the sum of the shares of all
+//! bins before it, and the upper half its share, in 65536ths. Then, as the bits of f32, what a surface or a medium there sends on ([`GuideCell::sent_on`]).
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
 use crate::math::{Frame, octahedron};
-use crate::sampling::cell_grid::{CellGrid, GRID_HEADER_WORDS, facing};
+use crate::sampling::cell_grid::{CellGrid, FACINGS, GRID_HEADER_WORDS, facing};
 
 /// Bins of a histogram: rows by the squared sine of the angle with the axis, columns around it.
 pub const GUIDE_ROWS: u32 = 8;
 pub const GUIDE_COLUMNS: u32 = 16;
+/// The facing of places within media, behind those of surfaces.
+pub const GUIDE_FACING_IN_MEDIA: u32 = FACINGS as u32;
+/// The ways to face for which a guide has cells.
+pub(super) const GUIDE_FACINGS: usize = FACINGS + 1;
 /// Words of a cell.
 pub const GUIDE_CELL_WORDS: u32 = 1 + GUIDE_ROWS * GUIDE_COLUMNS + 2;
-/// Share of the directions that the guide draws, where a surface scatters by diffuse lobes alone. What the guide does not know of is found
+/// Share of the directions that the guide draws, where a surface scatters by diffuse lobes alone, or a medium evenly. What the guide does not know of is found
 /// less often and then counts for more: more pays where a guide learned long, and less where it learned little.
 pub const GUIDED_SHARE: f32 = 0.5625;
 /// A path goes on with a probability of the root of so many times what it is expected to bring yet, over what it was expected to bring at first.
@@ -42,11 +47,20 @@ pub struct Guide {
     pub(super) words: Vec<u32>,
 }
 
-/// The part of a guide that holds at one point of a surface.
+/// The part of a guide that holds at one point of a surface or of a medium.
 #[derive(Debug, Clone, Copy)]
 pub struct GuideCell<'a> {
     words: &'a [u32],
-    frame: Frame,
+    domain: Domain,
+}
+
+/// The directions that a histogram is about.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Domain {
+    /// Those above a surface, in the frame of its cell's axis; bins have equal projected solid angle.
+    Hemisphere(Frame),
+    /// All directions, by the axes of the scene; bins have equal solid angle.
+    Sphere,
 }
 
 impl Guide {
@@ -66,18 +80,31 @@ impl Guide {
     /// The cell of a point on a surface, whose normal is on the side from where it is seen; None where
     /// nothing is known there.
     pub fn cell(&self, position: DVec3, normal: DVec3) -> Option<GuideCell<'_>> {
-        let index = CellGrid::of_table(&self.words).index_of(facing(normal), position)?;
+        let words = self.words_of_cell(position, facing(normal))?;
+        Some(GuideCell { words, domain: Domain::Hemisphere(Frame::around(unpacked_axis(words[0]))) })
+    }
+
+    /// The cell of a place within a medium; None where nothing is known there.
+    pub fn cell_in_medium(&self, position: DVec3) -> Option<GuideCell<'_>> {
+        let words = self.words_of_cell(position, GUIDE_FACING_IN_MEDIA)?;
+        Some(GuideCell { words, domain: Domain::Sphere })
+    }
+
+    fn words_of_cell(&self, position: DVec3, facing: u32) -> Option<&[u32]> {
+        let index = CellGrid::of_table(&self.words).index_of(facing, position)?;
         let number = self.words[GRID_HEADER_WORDS as usize + index];
         let start = self.first_cell() + CELL_WORDS * (number.checked_sub(1)? as usize);
-        let words = &self.words[start..start + CELL_WORDS];
-        Some(GuideCell { words, frame: Frame::around(unpacked_axis(words[0])) })
+        Some(&self.words[start..start + CELL_WORDS])
     }
 }
 
 impl GuideCell<'_> {
     #[cfg(test)]
     pub(super) fn frame_of_tests(&self) -> Frame {
-        self.frame
+        match self.domain {
+            Domain::Hemisphere(frame) => frame,
+            Domain::Sphere => panic!("a cell of a medium has no frame"),
+        }
     }
 
     /// Light per throughput that a surface here sends on, on average: light that comes by way of its
@@ -119,30 +146,42 @@ impl GuideCell<'_> {
         }
         let [first, behind] = [column, column + 1].map(|column| self.start(row, column));
         let in_column = (f64::from(start + whole - first) + f64::from(rest) / 4_294_967_296.0) / f64::from(behind - first);
-        let squared_sine = (f64::from(row) + in_row) / f64::from(GUIDE_ROWS);
+        let down = (f64::from(row) + in_row) / f64::from(GUIDE_ROWS);
         let turns = (f64::from(column) + in_column) / f64::from(GUIDE_COLUMNS);
-        let (sine, angle) = (squared_sine.sqrt(), 2.0 * PI * turns);
-        self.frame.to_world(DVec3::new(sine * angle.cos(), sine * angle.sin(), (1.0 - squared_sine).sqrt()))
+        let (sine_around, cosine_around) = (2.0 * PI * turns).sin_cos();
+        let at = |sine: f64, cosine: f64| DVec3::new(sine * cosine_around, sine * sine_around, cosine);
+        match self.domain {
+            Domain::Hemisphere(frame) => frame.to_world(at(down.sqrt(), (1.0 - down).sqrt())),
+            Domain::Sphere => at(2.0 * (down * (1.0 - down)).sqrt(), 1.0 - 2.0 * down),
+        }
     }
 
     /// The density with which a direction is drawn, per steradian.
     pub fn pdf(&self, wi: DVec3) -> f64 {
-        let local = self.frame.to_local(wi);
-        if local.z <= 0.0 {
-            return 0.0;
-        }
-        let (row, column) = bin(local);
-        let share = self.bin(row, column) >> 16;
-        f64::from(share) / f64::from(WHOLE) * BINS as f64 * local.z / PI
+        let Some(((row, column), even)) = self.domain.bin(wi) else { return 0.0 };
+        f64::from(self.bin(row, column) >> 16) / f64::from(WHOLE) * BINS as f64 * even
     }
 }
 
-/// Row and column of a direction above the horizon, in the cell's frame.
-pub(super) fn bin(local: DVec3) -> (u32, u32) {
+impl Domain {
+    /// Row and column of a direction, and the density of directions where all bins have the same share. None below the horizon.
+    pub(super) fn bin(&self, wi: DVec3) -> Option<((u32, u32), f64)> {
+        match self {
+            Self::Hemisphere(frame) => {
+                let local = frame.to_local(wi);
+                let down = local.x * local.x + local.y * local.y;
+                (local.z > 0.0).then(|| (row_and_column(down, local), local.z / PI))
+            }
+            Self::Sphere => Some((row_and_column(0.5 - 0.5 * wi.z, wi), 0.25 / PI)),
+        }
+    }
+}
+
+/// Row and column by how far a direction is down from the axis, from 0 to 1, and by its angle around it.
+fn row_and_column(down: f64, local: DVec3) -> (u32, u32) {
     let turns = local.y.atan2(local.x) / (2.0 * PI);
     let turns = if turns < 0.0 { turns + 1.0 } else { turns };
-    let row = (local.x * local.x + local.y * local.y) * f64::from(GUIDE_ROWS);
-    let column = turns * f64::from(GUIDE_COLUMNS);
+    let (row, column) = (down * f64::from(GUIDE_ROWS), turns * f64::from(GUIDE_COLUMNS));
     ((row as u32).min(GUIDE_ROWS - 1), (column as u32).min(GUIDE_COLUMNS - 1))
 }
 

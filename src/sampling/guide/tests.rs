@@ -123,6 +123,66 @@ fn a_guide_draws_where_light_comes_from_and_no_direction_is_forgotten() {
     assert!(least.fold(f64::INFINITY, f64::min) > 0.02);
 }
 
+/// Arrivals in a cube of side 4 full of a medium, by even directions, from a bright patch and a dim rest.
+fn guide_of_medium() -> Guide {
+    let number = |index: u32, axis: u32| uniform(mix(mix(index.wrapping_mul(7) + 1).wrapping_add(axis)));
+    let arrival = |index: u32| {
+        let wi = crate::reference::warp::uniform_sphere(number(index, 0), number(index, 1));
+        let position = DVec3::new(number(index, 2), number(index, 3), number(index, 4)) * 4.0;
+        let radiance = if wi.dot(DVec3::new(0.0, -0.6, -0.8)) > 0.9 { 50.0 } else { 0.5 };
+        let pdf = (0.25 / PI) as f32;
+        Arrival { position: position.as_vec3(), normal: glam::Vec3::ZERO, wi: wi.as_vec3(), radiance, pdf, sent_on: [0.25, 1.0] }
+    };
+    learn(&(0..40_000).map(arrival).collect::<Vec<_>>()).expect("there is light")
+}
+
+/// Within a medium a guide draws all directions, as densely as it says, and most where light comes from.
+#[test]
+fn guides_within_media_are_about_all_directions() {
+    let guide = guide_of_medium();
+    let middle = DVec3::new(2.1, 1.9, 2.2);
+    assert!(guide.cell(middle, DVec3::Y).is_none() && guide.cell_in_medium(middle + 9.0 * DVec3::X).is_none());
+    let cell = guide.cell_in_medium(middle).expect("the middle is known");
+    let (rows, columns) = (2 * GUIDE_ROWS, 2 * GUIDE_COLUMNS);
+    let place = |wi: DVec3| {
+        let turns = (wi.y.atan2(wi.x) / (2.0 * PI)).rem_euclid(1.0);
+        let row = ((0.5 - 0.5 * wi.z) * f64::from(rows)) as u32;
+        (row.min(rows - 1) * columns + ((turns * f64::from(columns)) as u32).min(columns - 1)) as usize
+    };
+    let count = 200_000_u32;
+    let mut found = vec![0.0; (rows * columns) as usize];
+    let mut bright = 0;
+    for index in 0..count {
+        let wi = cell.sample(uniform(mix(2 * index + 1)), uniform(mix(mix(index) ^ 0x9e37_79b9)));
+        assert!((wi.length() - 1.0).abs() < 1e-12 && cell.pdf(wi) > 0.0);
+        found[place(wi)] += 1.0;
+        bright += u32::from(wi.dot(DVec3::new(0.0, -0.6, -0.8)) > 0.9);
+    }
+    let share = |row: u32, column: u32| {
+        let z = 1.0 - 2.0 * (f64::from(row) + 0.5) / f64::from(rows);
+        let angle = 2.0 * PI * (f64::from(column) + 0.5) / f64::from(columns);
+        let sine = (1.0 - z * z).sqrt();
+        cell.pdf(DVec3::new(sine * angle.cos(), sine * angle.sin(), z)) * 4.0 * PI / f64::from(rows * columns)
+    };
+    let bins = || (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+    let sum: f64 = bins().map(|(row, column)| share(row, column)).sum();
+    assert!((sum - 1.0).abs() < 1e-9, "{sum}");
+    let statistic = |expected: &dyn Fn(u32, u32) -> f64| {
+        bins()
+            .map(|(row, column)| {
+                let expected = expected(row, column) * f64::from(count);
+                (found[(row * columns + column) as usize] - expected).powi(2) / expected
+            })
+            .sum::<f64>()
+    };
+    let (by_density, evenly) = (statistic(&share), statistic(&|_, _| 1.0 / f64::from(rows * columns)));
+    let freedom = f64::from(rows * columns - 1);
+    let limit = freedom + 6.0 * (2.0 * freedom).sqrt();
+    assert!(by_density < limit && evenly > 10.0 * limit, "{by_density} {evenly} {limit}");
+    // Even directions would have a twentieth there.
+    assert!(bright > count / 5, "{bright}");
+}
+
 /// No point outside, no other facing; and the same arrivals make the same table.
 #[test]
 fn cells_are_where_arrivals_were() {

@@ -30,7 +30,7 @@ impl Division {
     /// Divides some points; equal points in equal order give equal divisions.
     pub fn new(points: &[LightSampleContext]) -> Self {
         let grid = CellGrid::around(points.par_iter().map(|point| point.point), MOST_BOXES);
-        let mut division = Self { grid, index: grid.empty_index(), cells: Vec::new() };
+        let mut division = Self { grid, index: grid.empty_index(FACINGS), cells: Vec::new() };
         let mut of_facings: [Vec<u32>; FACINGS] = Default::default();
         for (number, point) in points.iter().enumerate() {
             if grid.place(point.point).is_some() {

@@ -1,6 +1,5 @@
 //! Media whose boundaries cannot be what was meant.
 
-use super::material::{MaterialId, MaterialKind};
 use super::medium::MediumId;
 use super::model::Scene;
 use super::shape::{Geometry, Shape};
@@ -11,7 +10,8 @@ impl Scene {
         if self.media.is_empty() {
             return Vec::new();
         }
-        let inside: Vec<Option<MediumId>> = (0..self.materials.len()).map(|material| self.enclosed_by(material)).collect();
+        let own = self.materials.iter().map(|material| material.interior).collect();
+        let inside: Vec<Option<MediumId>> = self.with_that_of_parts(own, |_| true);
         let shapes: Vec<&Shape> = self.shapes.iter().chain(self.groups.iter().flat_map(|group| &group.shapes)).collect();
         let bounds = |shape: &Shape, medium: MediumId| shape.materials().any(|material| inside[material] == Some(medium));
         let mut warnings = Vec::new();
@@ -29,22 +29,6 @@ impl Scene {
             }
         }
         warnings
-    }
-
-    /// The medium behind surfaces of a material: its own, or that of a part of a blend.
-    fn enclosed_by(&self, material: MaterialId) -> Option<MediumId> {
-        // A blend that is a part of itself is for the check of the scene to refuse.
-        let mut to_visit = vec![material];
-        for _ in 0..=2 * self.materials.len() {
-            let material = &self.materials[to_visit.pop()?];
-            if material.interior.is_some() {
-                return material.interior;
-            }
-            if let MaterialKind::Blend { materials: [first, second], .. } = material.kind {
-                to_visit.extend([second, first]);
-            }
-        }
-        None
     }
 }
 

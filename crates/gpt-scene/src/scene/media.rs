@@ -113,12 +113,12 @@ impl Media {
             }
             _ => None,
         };
-        let mut inside: Vec<Option<Filling>> = scene.materials.iter().map(own).collect();
+        let inside: Vec<Option<Filling>> = scene.materials.iter().map(own).collect();
         let around_camera = scene.camera_medium.map(|id| Filling::of(&scene.media[id]));
         if inside.iter().flatten().chain(&around_camera).all(Filling::is_clear) {
             return Self::default();
         }
-        of_blends(scene, &mut inside);
+        let inside = scene.with_that_of_parts(inside, |filling| !filling.is_clear());
         let mut media = Self::default();
         media.around_camera = around_camera.map_or(0, |filling| media.number(filling));
         media.behind = inside.into_iter().map(|filling| filling.map_or(0, |filling| media.number(filling))).collect();
@@ -215,27 +215,6 @@ fn dark_media(scene: &Scene, media: &Media) -> Vec<bool> {
         }
     }
     is_dark
-}
-
-/// Gives blends the medium inside their parts.
-fn of_blends(scene: &Scene, inside: &mut [Option<Filling>]) {
-    // Parts before wholes, each material once. One that is a part of itself is for the check of the scene to refuse.
-    let mut is_entered = vec![false; inside.len()];
-    let mut to_visit = Vec::new();
-    for root in 0..inside.len() {
-        to_visit.push((root, false));
-        while let Some((id, parts_are_known)) = to_visit.pop() {
-            let MaterialKind::Blend { materials: [first, second], .. } = scene.materials[id].kind else { continue };
-            if parts_are_known {
-                if inside[id].is_none() {
-                    let parts = || [first, second].into_iter().filter_map(|part| inside[part].clone());
-                    inside[id] = parts().find(|filling| !filling.is_clear()).or_else(|| parts().next());
-                }
-            } else if !std::mem::replace(&mut is_entered[id], true) {
-                to_visit.extend([(id, true), (first, false), (second, false)]);
-            }
-        }
-    }
 }
 
 #[cfg(test)]

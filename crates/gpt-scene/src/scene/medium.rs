@@ -79,6 +79,15 @@ impl Phase {
         Self::of(PhaseKind::HenyeyGreenstein { g: 0.0 })
     }
 
+    /// About how evenly light is spread over directions, from 0 to 1: a guide, which knows the light and not the lobes, draws so much more of them.
+    pub fn evenness(&self) -> f64 {
+        let of_kind = |kind: PhaseKind| match kind {
+            PhaseKind::HenyeyGreenstein { g } => 1.0 - g.abs(),
+            PhaseKind::Rayleigh => 1.0,
+        };
+        self.0.iter().map(|lobe| lobe.weight * of_kind(lobe.kind)).sum()
+    }
+
     /// A phase function of one lobe.
     pub fn of(kind: PhaseKind) -> Self {
         Self(vec![PhaseLobe { weight: 1.0, kind }])

@@ -124,6 +124,31 @@ impl Scene {
         found
     }
 
+    /// What each material has of its own, given as a list, and of blends without it what the first part has, at any depth; one that is `preferred` comes
+    /// before others. Each material is visited once.
+    #[doc(hidden)]
+    pub fn with_that_of_parts<T: Clone>(&self, mut own: Vec<Option<T>>, preferred: impl Fn(&T) -> bool) -> Vec<Option<T>> {
+        // Parts before wholes. A blend that is a part of itself is for the check of the scene to refuse.
+        let mut is_entered = vec![false; own.len()];
+        let mut to_visit = Vec::new();
+        for root in 0..own.len() {
+            to_visit.push((root, false));
+            while let Some((id, parts_are_known)) = to_visit.pop() {
+                let parts = self.materials[id].parts();
+                if parts_are_known {
+                    if own[id].is_none() {
+                        let of_parts = || parts.iter().filter_map(|&part| own[part].as_ref());
+                        own[id] = of_parts().find(|of| preferred(of)).or_else(|| of_parts().next()).cloned();
+                    }
+                } else if !parts.is_empty() && !std::mem::replace(&mut is_entered[id], true) {
+                    to_visit.push((id, true));
+                    to_visit.extend(parts.iter().map(|&part| (part, false)));
+                }
+            }
+        }
+        own
+    }
+
     /// For each material, true if its coat, or that of one that it blends at any depth, lies about another normal than the base below it.
     #[doc(hidden)]
     pub fn coat_normals_differ(&self) -> Vec<bool> {

@@ -3,8 +3,6 @@
 //! A shape of ours says what it holds, and is within whatever is around it; there it says both. So what is around a shape is found by the boxes around
 //! all of them.
 
-use std::collections::HashSet;
-
 use glam::{DAffine3, DVec3};
 use toml::Table;
 
@@ -123,7 +121,12 @@ impl Writer<'_> {
         }
         let is_hull = self.original.materials_that(is_hull);
         let bodies = self.original.shapes.iter().filter(|shape| is_hull[shape.material]);
-        let hull = |shape: &Shape| Some(Hull { bounds: shape.bounds()?, holds: self.medium_within(shape.material) });
+        let own = |(id, material): (MaterialId, &Material)| match material.interior {
+            Some(medium) => Some(self.medium_named(medium)),
+            None => absorbs(&material.kind).map(|_| body_id(id)),
+        };
+        let within = self.original.with_that_of_parts(self.original.materials.iter().enumerate().map(own).collect(), |_| true);
+        let hull = |shape: &Shape| Some(Hull { bounds: shape.bounds()?, holds: within[shape.material].clone() });
         let mut hulls: Vec<Hull> = bodies.filter_map(hull).collect();
         hulls.sort_by(|a, b| a.size().total_cmp(&b.size()));
         // A body of that medium around the camera is left by rays that go out of it.
@@ -133,16 +136,16 @@ impl Writer<'_> {
             hulls.iter().any(|hull| hull.holds.as_ref() == Some(medium) && is_around(hull.bounds))
         };
         let around_camera = self.medium_around_camera().filter(|medium| !is_left(medium));
-        Surroundings { hulls, around_camera, is_hull }
+        Surroundings { hulls, around_camera, is_hull, within }
     }
 
     /// The shape with what it holds and what is around it; around shapes of groups it is the camera's medium.
     pub fn with_media(&self, element: Element, shape: Option<&Shape>, is_of_group: bool) -> Element {
         let is_hull = |shape: &&Shape| self.surroundings.is_hull.get(shape.material) == Some(&true);
         let Some(shape) = shape.filter(is_hull) else { return element };
-        let interior = self.medium_within(shape.material);
+        let interior = self.surroundings.within[shape.material].as_deref();
         let exterior = self.surroundings.around(shape.bounds().filter(|_| !is_of_group));
-        let element = match &interior {
+        let element = match interior {
             Some(id) => element.named_reference("interior", id),
             None => element,
         };
@@ -150,26 +153,6 @@ impl Writer<'_> {
             Some(id) => element.named_reference("exterior", id),
             None => element,
         }
-    }
-
-    /// The medium within bodies of a material; a blend has that of the first part with one.
-    fn medium_within(&self, id: MaterialId) -> Option<String> {
-        let mut to_visit = vec![id];
-        let mut seen = HashSet::new();
-        while let Some(id) = to_visit.pop() {
-            if !seen.insert(id) {
-                continue;
-            }
-            let material = &self.original.materials[id];
-            if let Some(medium) = material.interior {
-                return Some(self.medium_named(medium));
-            }
-            if absorbs(&material.kind).is_some() {
-                return Some(body_id(id));
-            }
-            to_visit.extend(material.parts().iter().rev());
-        }
-        None
     }
 }
 

@@ -24,6 +24,8 @@ pub struct Surroundings {
     pub around_camera: Option<String>,
     /// By material: something else is within its surfaces than around them. Empty where the scene has no media.
     pub is_hull: Vec<bool>,
+    /// By material: the id of the medium within its bodies. Empty where the scene has no media.
+    pub within: Vec<Option<String>>,
 }
 
 impl Surroundings {
