@@ -30,11 +30,6 @@ impl<'a> GuidedPhase<'a> {
         Self { scattering, guide: cell.map(|cell| (cell, share)) }
     }
 
-    /// [`GuideCell::sent_on`] of the guide; None where there is no guide.
-    pub fn sent_on(&self) -> Option<[f64; 2]> {
-        self.guide.as_ref().map(|(cell, _)| cell.sent_on())
-    }
-
     /// The value of the phase function, and the density with which wi is drawn.
     pub fn evaluate(&self, wi: DVec3) -> Evaluation {
         let alone = self.scattering.evaluate(wi);

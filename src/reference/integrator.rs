@@ -326,7 +326,11 @@ impl Integrator {
         // Let Russian roulette end the path
         let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
         let survival = match self.guide {
-            Some(_) => path.expectation.survival(arriving, scatterer.sent_on(), path.depth),
+            // In fog a guide says too little of what a path will bring yet: paths that ended by it made twice the noise
+            Some(_) => {
+                let sent_on = scatterer.sent_on().filter(|_| !self.media.scatter());
+                path.expectation.survival(arriving, sent_on, path.depth)
+            }
             None => roulette::survival(path.throughput * path.eta_scale, path.depth),
         };
         let survives = self.survives_roulette(path, survival, u_roulette, visitor);

@@ -89,11 +89,11 @@ impl Scatterer<'_> {
         }
     }
 
-    /// [`GuidedBsdf::sent_on`] where there is a guide.
+    /// [`GuidedBsdf::sent_on`] of surfaces with a guide.
     pub fn sent_on(&self) -> Option<[f64; 2]> {
         match self {
             Self::Surface(bsdf) => bsdf.sent_on(),
-            Self::Medium(phase) => phase.sent_on(),
+            Self::Medium(_) => None,
         }
     }
 

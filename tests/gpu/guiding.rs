@@ -198,18 +198,19 @@ fn guided_pictures_are_the_same_from_run_to_run_and_in_parts() {
     }
 }
 
-/// The mean over a picture with and without a guide, by Welch's t-test over seeds, and the same test against 3 % more light.
 #[test]
 fn guided_paths_have_the_same_mean() {
-    have_the_same_mean(round_the_corner(), 256);
+    have_the_same_mean(round_the_corner(), 256, 1.03);
 }
 
 #[test]
 fn guided_paths_in_fog_have_the_same_mean() {
-    have_the_same_mean(foggy_corner(), 512);
+    // Unguided paths are noisy there.
+    have_the_same_mean(foggy_corner(), 2048, 1.06);
 }
 
-fn have_the_same_mean(mut scene: Scene, spp: u32) {
+/// The mean over a picture with and without a guide, by Welch's t-test over seeds, and the same test against so many times the light.
+fn have_the_same_mean(mut scene: Scene, spp: u32, planted: f64) {
     scene.render.spp = spp;
     let mut means = |guiding| -> Option<Vec<f64>> {
         scene.render.guiding = guiding;
@@ -220,12 +221,12 @@ fn have_the_same_mean(mut scene: Scene, spp: u32) {
     };
     let (Some(unguided), Some(guided)) = (means(Guiding::Off), means(Guiding::On)) else { return };
     // A guide whose density is off by some per cent shows as much.
-    let [unguided, guided, planted]: [Moments; 3] = [(&unguided, 1.0), (&guided, 1.0), (&guided, 1.03)]
+    let [unguided, guided, brighter]: [Moments; 3] = [(&unguided, 1.0), (&guided, 1.0), (&guided, planted)]
         .map(|(means, factor)| means.iter().map(|mean| factor * mean).collect());
     let held = hypothesis::welch_t_test(&unguided, &guided);
     assert!(held.p_value > 1e-3, "{unguided:?} and {guided:?}: {held:?}");
-    let control = hypothesis::welch_t_test(&unguided, &planted);
-    assert!(control.p_value < 1e-3, "3 % go unnoticed: {unguided:?}, {planted:?}, {control:?}");
+    let control = hypothesis::welch_t_test(&unguided, &brighter);
+    assert!(control.p_value < 1e-3, "more light goes unnoticed: {unguided:?}, {brighter:?}, {control:?}");
 }
 
 /// A guide lowers the squared error of a sample if light comes round a corner.

@@ -16,7 +16,8 @@ struct Roulette {
 fn roulette_at(incoming: Path, scatterer: Scatterer, throughput: Spectrum, eta_scale: f32, depth: u32) -> Roulette {
     let largest = select(1.0, LARGEST_SURVIVAL, depth >= CERTAIN_ROULETTE_DEPTH);
 #if GUIDE
-    if scatterer.guide.share == 0.0 {
+    // In scenes with media that scatter no path is judged by its guide: see src/reference/integrator.rs.
+    if HAS_SCATTERING || scatterer.guide.share == 0.0 {
         return Roulette(largest, incoming.roulette_scale);
     }
     let is_first = incoming.roulette_scale == 0.0;

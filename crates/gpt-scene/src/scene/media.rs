@@ -152,6 +152,11 @@ impl Media {
         number.checked_sub(1).map(|index| &self.fillings[index])
     }
 
+    /// Some medium scatters light.
+    pub fn scatter(&self) -> bool {
+        self.fillings.iter().any(Filling::scatters)
+    }
+
     /// The number of the medium that surfaces of a material enclose; 0: they bound none.
     pub fn behind(&self, material: MaterialId) -> usize {
         self.behind.get(material).copied().unwrap_or(0)
