@@ -57,7 +57,7 @@ pub struct GuideCell<'a> {
 /// The directions that a histogram is about.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Domain {
-    /// Those above a surface, in the frame of its cell's axis; bins have equal projected solid angle.
+    /// The directions above a surface, in the frame of its cell's axis; bins have equal projected solid angle.
     Hemisphere(Frame),
     /// All directions, by the axes of the scene; bins have equal solid angle.
     Sphere,

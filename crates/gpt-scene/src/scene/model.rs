@@ -124,7 +124,7 @@ impl Scene {
         found
     }
 
-    /// What each material has of its own, given as a list, and of blends without it what the first part has, at any depth; one that is `preferred` comes
+    /// For each material, what it has of its own, as listed; for a blend that has nothing, what the first part has, at any depth, one that is `preferred`
     /// before others. Each material is visited once.
     #[doc(hidden)]
     pub fn with_that_of_parts<T: Clone>(&self, mut own: Vec<Option<T>>, preferred: impl Fn(&T) -> bool) -> Vec<Option<T>> {
