@@ -50,11 +50,30 @@ def node(tree, kind, inputs=(), **properties):
 def material(name, entry, scene):
     made = bpy.data.materials.new(name)
     tree = new_tree(made)
+    if "interior" in entry:
+        outputs = {"Volume": volume(tree, entry["interior"])}
+        if entry["type"] != "pass":
+            outputs["Surface"] = surface(tree, entry, scene).outputs[0]
+        node(tree, "ShaderNodeOutputMaterial", outputs)
+        return made
     shader = emission(tree, entry["radiance"]) if entry["type"] == "emissive" else surface(tree, entry, scene)
     if "opacity" in entry:
         shader = cut_out(tree, shader, colour(tree, {"texture": entry["opacity"]}, scene))
     node(tree, "ShaderNodeOutputMaterial", {"Surface": shader.outputs[0]})
     return made
+
+
+def volume(tree, medium):
+    """Scattering is colour times density there, and absorption (1 - colour) times density."""
+    scattering, absorption = medium["scattering"], medium["absorption"]
+    most_scattered, most_absorbed = (max(float(part.max()), 1e-12) for part in (scattering, absorption))
+    inputs = {"Color": (*(scattering / most_scattered), 1), "Density": most_scattered, "Anisotropy": medium["g"]}
+    scatter = node(tree, "ShaderNodeVolumeScatter", inputs)
+    absorb = node(tree, "ShaderNodeVolumeAbsorption", {"Color": (*(1 - absorption / most_absorbed), 1), "Density": most_absorbed})
+    both = node(tree, "ShaderNodeAddShader")
+    tree.links.new(scatter.outputs[0], both.inputs[0])
+    tree.links.new(absorb.outputs[0], both.inputs[1])
+    return both.outputs[0]
 
 
 def cut_out(tree, shader, opacity):
@@ -82,6 +101,9 @@ def surface(tree, entry, scene):
         if entry["reflectance"] != entry["transmittance"]:
             raise Refused("Cycles' glass has one colour for both of its parts")
         optics = {"Color": (*entry["reflectance"], 1), "Roughness": 0.0, "IOR": entry["ior"]}
+        return node(tree, "ShaderNodeBsdfGlass", optics, distribution="GGX")
+    if kind == "rough_glass":
+        optics = {"Color": (*entry["reflectance"], 1), "Roughness": math.sqrt(entry["alpha"]), "IOR": entry["ior"]}
         return node(tree, "ShaderNodeBsdfGlass", optics, distribution="GGX")
     if kind == "conductor" and "eta" in entry:
         optics = {"IOR": entry["eta"], "Extinction": entry["k"], "Roughness": math.sqrt(entry["alpha"]), "Anisotropy": 0.0}
@@ -142,6 +164,14 @@ def add_lights(target, lights):
     tree, colour = new_tree(target.world), (0, 0, 0, 1)
     strength = 1.0
     for light in lights:
+        if light["type"] == "directional":
+            sun = bpy.data.lights.new("sun", "SUN")
+            peak = max(light["irradiance"])
+            sun.color, sun.energy, sun.angle = [part / peak for part in light["irradiance"]], peak, 0.0
+            thing = bpy.data.objects.new("sun", sun)
+            thing.matrix_world = Vector(light["direction"]).to_track_quat("-Z", "Y").to_matrix().to_4x4()
+            target.collection.objects.link(thing)
+            continue
         if light["type"] != "environment":
             raise Refused(f"a light of type `{light['type']}` is not translated for Cycles")
         if "radiance" in light:
@@ -198,10 +228,10 @@ def set_cycles(target, scene):
     cycles = target.cycles
     cycles.device = "CPU"
     bounces = scene.max_depth - 2 if scene.max_depth else 1024  # none: light sources seen directly and direct lighting, two edges
-    for kind in ("max", "diffuse", "glossy", "transmission"):
+    for kind in ("max", "diffuse", "glossy", "transmission", "volume"):
         setattr(cycles, f"{kind}_bounces", bounces)
     # Ways through holes are no edges of a path.
-    cycles.transparent_max_bounces = 1024 if any("opacity" in entry for entry in scene.materials.values()) else bounces
+    cycles.transparent_max_bounces = 1024 if any("opacity" in entry or entry["type"] == "pass" for entry in scene.materials.values()) else bounces
     cycles.pixel_filter_type = "BOX"
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.blur_glossy = 0.0

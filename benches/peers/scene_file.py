@@ -56,6 +56,8 @@ class Scene:
     shapes: list = field(default_factory=list)
     """Dictionaries with `type`, `material` (a name), `matrix` (4 × 4, object to world) and the shape's own keys."""
     lights: list = field(default_factory=list)
+    media: dict = field(default_factory=dict)
+    """By name, `scattering` and `absorption` by channel and unit length, and `g`, the mean cosine."""
 
 
 def load(path, spp=None, size=None, max_depth=None, exported=True):
@@ -82,11 +84,22 @@ def load(path, spp=None, size=None, max_depth=None, exported=True):
         table = Table(entries, f"texture {entries.get('name')!r}")
         name = table.take("name")
         scene.textures[name] = texture(table, path.parent)
+    for entries in root.take("medium", []):
+        if exported:
+            raise Refused("media are for renderers that read what `gpt export` writes")
+        table = Table(entries, f"medium {entries.get('name')!r}")
+        scene.media[table.take("name")] = medium(table)
+        table.finish()
     for entries in root.take("material", []):
         table = Table(entries, f"material {entries.get('name')!r}")
         name = table.take("name")
         cut_out = opacity(table, scene) if "opacity" in table.entries and not exported else None
         scene.materials[name] = material(table, scene) | ({"opacity": cut_out} if cut_out else {})
+    # Renderers find out by themselves what body the camera is in.
+    interiors = [entry.get("interior") for entry in scene.materials.values()]
+    around_camera = scene.camera.get("medium")
+    if around_camera and not any(interior is scene.media[around_camera] for interior in interiors):
+        raise Refused(f"no body of the medium `{around_camera}` is around the camera")
     for number, entries in enumerate(root.take("shape", [])):
         scene.shapes.append(shape(Table(entries, f"shape {number + 1}"), scene, path.parent))
     for number, entries in enumerate(root.take("light", [])):
@@ -103,6 +116,8 @@ def camera(table):
         "up": table.take("up", [0, 1, 0]),
         "vfov": float(table.take("vfov", 40.0)),
     }
+    if inside := table.take("medium", None):
+        found["medium"] = inside
     table.finish()
     return found
 
@@ -151,7 +166,12 @@ METALS = {
 def material(table, scene):
     kind = table.take("type")
     found = {"type": kind}
-    if kind in ("diffuse", "mirror"):
+    interior = table.take("interior", None)
+    if interior:
+        found["interior"] = scene.media[interior]
+    if kind == "pass":
+        pass
+    elif kind in ("diffuse", "mirror"):
         found["reflectance"] = colour(table.take("reflectance", *([1.0] if kind == "mirror" else [])), scene.textures)
     elif kind in ("glass", "rough_glass"):
         found |= {"ior": float(table.take("ior", 1.5))}
@@ -223,9 +243,23 @@ def shape(table, scene, folder):
     return found
 
 
+def medium(table):
+    phase = table.take("phase", {"type": "isotropic"})
+    if phase["type"] not in ("isotropic", "henyey_greenstein"):
+        raise Refused(f"a phase function of type `{phase['type']}` is not translated")
+    if "albedo" in table.entries:
+        albedo, mean_free_path = (np.array(colour(table.take(key), {})) for key in ("albedo", "mean_free_path"))
+        scattering, absorption = albedo / mean_free_path, (1 - albedo) / mean_free_path
+    else:
+        scattering, absorption = (np.array(colour(table.take(key, 0.0), {})) for key in ("scattering", "absorption"))
+    return {"scattering": scattering, "absorption": absorption, "g": float(phase.get("g", 0.0))}
+
+
 def light(table, folder, exported):
     kind = table.take("type")
-    if kind == "point":
+    if kind == "directional":
+        found = {"direction": table.take("direction"), "irradiance": colour(table.take("irradiance"), {})}
+    elif kind == "point":
         found = {"position": table.take("position"), "intensity": colour(table.take("intensity"), {})}
     elif kind == "environment" and "file" in table.entries:
         found = {"file": existing(folder, table.take("file"), "environment map"), "scale": float(table.take("scale", 1.0))}
