@@ -4,6 +4,7 @@
 #import shading/microfacet/dielectric.wgsl
 #import shading/microfacet/spectral_dielectric.wgsl
 #import shading/microfacet/thin_film.wgsl
+#import shading/material/channels.wgsl
 #import shading/material/lobe.wgsl
 #import shading/material/parameters.wgsl
 #import shading/microfacet/microfacet.wgsl
@@ -85,7 +86,7 @@ fn sample_rough_spectral_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choi
     var eta = 1.0;
     var i = 2.0 * dot(o, m) * m - o;
     if !reflects {
-        let channel = spectral_channel(ways, choice - ways.reflection);
+        let channel = choose_channel(ways.transmission, choice - ways.reflection).channel;
         if channel > 2u {
             return no_sample();
         }

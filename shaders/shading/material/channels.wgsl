@@ -1,4 +1,4 @@
-// The choice of a channel where channels are not scattered alike.
+// The choice of a channel where channels are not scattered alike. src/reference/bsdf/channels.rs is the same in f64.
 #import core/math.wgsl
 #import shading/surface.wgsl
 
@@ -14,11 +14,13 @@ fn carried_shares(surface: Surface) -> Spectrum {
 }
 
 struct ChosenChannel {
+    // 3 where no channel has a share.
     channel: u32,
     // The rest of the random number, for further choices.
     left: f32,
 }
 
+// The channel that a number from 0 up to the sum of all shares chooses.
 fn choose_channel(shares: Spectrum, u: f32) -> ChosenChannel {
     var below = 0.0;
     var start = 0.0;
@@ -31,6 +33,5 @@ fn choose_channel(shares: Spectrum, u: f32) -> ChosenChannel {
         }
         below += shares[channel];
     }
-    let channel = min(chosen, 2u);
-    return ChosenChannel(channel, clamp((u - start) / shares[channel], 0.0, 0.99999994));
+    return ChosenChannel(chosen, clamp((u - start) / shares[min(chosen, 2u)], 0.0, 0.99999994));
 }

@@ -59,20 +59,6 @@ fn spectral_ways(lobe: Lobe, dielectric: SpectralDielectric, surface: Surface, c
     return ways;
 }
 
-// The channel whose refraction the rest of a random number chooses.
-fn spectral_channel(ways: SpectralWays, left: f32) -> u32 {
-    var below = 0.0;
-    var chosen = 3u;
-    for (var channel = 0u; channel < 3u; channel++) {
-        let probability = ways.transmission[channel];
-        if probability > 0.0 && (chosen == 3u || left >= below) {
-            chosen = channel;
-        }
-        below += probability;
-    }
-    return chosen;
-}
-
 fn sample_delta_spectral(lobe: Lobe, dielectric: SpectralDielectric, surface: Surface, wo: vec3<f32>, choice: f32) -> BsdfSample {
     let n = surface.shading_normal;
     let cosine = min(dot(wo, n), 1.0);
@@ -84,7 +70,7 @@ fn sample_delta_spectral(lobe: Lobe, dielectric: SpectralDielectric, surface: Su
         }
         return BsdfSample(wi, lobe.color0 * ways.reflected / ways.reflection, -1.0, 1.0, false);
     }
-    let channel = spectral_channel(ways, choice - ways.reflection);
+    let channel = choose_channel(ways.transmission, choice - ways.reflection).channel;
     if channel > 2u {
         return no_sample();
     }

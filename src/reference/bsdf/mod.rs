@@ -4,6 +4,7 @@
 
 pub mod blend;
 mod blend_weight;
+mod channels;
 mod conductor;
 mod cosine_power;
 mod dielectric;

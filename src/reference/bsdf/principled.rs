@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::channels::choose_channel;
 use super::lookup::Lookup;
 use super::principled_layers::{PrincipledLayers, Way};
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
@@ -22,20 +23,6 @@ impl Principled {
     fn of_channels(&self, iors: Spectrum) -> [PrincipledLayers; 3] {
         iors.to_rgb().map(|ior| PrincipledLayers { ior, ..self.layers })
     }
-}
-
-/// Chooses a channel by its share, and what is left of the random number for further choices.
-fn choose_channel(shares: [f64; 3], u: f64) -> (usize, f64) {
-    let (mut chosen, mut start, mut below) = (None, 0.0, 0.0);
-    for (channel, &share) in shares.iter().enumerate() {
-        // The last channel of any share takes what rounding leaves.
-        if share > 0.0 && (chosen.is_none() || u >= below) {
-            (chosen, start) = (Some(channel), below);
-        }
-        below += share;
-    }
-    let channel = chosen.unwrap_or(0);
-    (channel, ((u - start) / shares[channel]).clamp(0.0, 1.0 - f64::EPSILON))
 }
 
 impl Scatter for Principled {
@@ -66,7 +53,7 @@ impl Scatter for Principled {
         let Some(iors) = self.iors else { return self.layers.sample(view, u_lobe, u1, u2) };
         let carried = view.carried_shares().to_rgb();
         let layers = self.of_channels(iors);
-        let (chosen, left) = choose_channel(carried, u_lobe);
+        let (chosen, left) = choose_channel(carried, u_lobe)?;
         let drawn = layers[chosen].draw(view, &layers[chosen].shares(view), left, u1, u2)?;
         if !self.layers.is_smooth(drawn.way) {
             let Evaluation { value, pdf } = self.evaluate(view, drawn.wi);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::channels::choose_channel;
 use super::fresnel::refract;
 use super::lookup::Lookup;
 use super::microfacet::Facets;
@@ -98,7 +99,7 @@ impl Scatter for RoughSpectralGlass {
         let (local, eta) = if reflects {
             (m * (2.0 * cosine) - wo, 1.0)
         } else {
-            let eta = self.dielectric.etas(view).to_rgb()[ways.channel(u_lobe - ways.reflection)?];
+            let eta = self.dielectric.etas(view).to_rgb()[choose_channel(ways.transmission, u_lobe - ways.reflection)?.0];
             (refract(wo, m, eta)?, eta)
         };
         let wi = frame.to_world(local).normalize();

@@ -31,20 +31,6 @@ pub struct Ways {
     pub transmission: [f64; 3],
 }
 
-impl Ways {
-    /// The channel whose refraction the rest of a random number chooses: the last of any weight takes what rounding leaves.
-    pub fn channel(&self, left: f64) -> Option<usize> {
-        let (mut below, mut chosen) = (0.0, None);
-        for (channel, &probability) in self.transmission.iter().enumerate() {
-            if probability > 0.0 && (chosen.is_none() || left >= below) {
-                chosen = Some(channel);
-            }
-            below += probability;
-        }
-        chosen
-    }
-}
-
 impl SpectralDielectric {
     pub fn new(
         iors: Spectrum,

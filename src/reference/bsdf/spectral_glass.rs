@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::channels::choose_channel;
 use super::fresnel::refract;
 use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
@@ -26,7 +27,7 @@ impl SpectralGlass {
             return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
         }
         let etas = dielectric.etas(view).to_rgb();
-        let eta = etas[ways.channel(u_lobe - ways.reflection)?];
+        let eta = etas[choose_channel(ways.transmission, u_lobe - ways.reflection)?.0];
         let wi = refract(view.wo, view.normal(), eta)?;
         // The channels that are refracted alike.
         let [r, g, b] = etas.map(|other| if other == eta { 1.0 } else { 0.0 });
