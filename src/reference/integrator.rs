@@ -18,8 +18,9 @@ use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::emitted;
 use super::free_flight::fly;
-use super::guided::{GuidedBsdf, GuidedPhase};
+use super::guided::GuidedPhase;
 use super::intersect::{Hit, PathTime, Ray, Surface, World};
+use super::layered::{LayersOfMaterials, SurfaceScatterer};
 use super::lights::{LightSample, Lights};
 use super::medium::{MediumStack, given_off, left};
 use super::mis;
@@ -47,6 +48,7 @@ pub struct Integrator {
     /// By material: it, or a part of its blend, gives light, and the camera does not see it.
     hidden: Vec<bool>,
     media: Media,
+    layers: LayersOfMaterials,
     /// From where light arrives, where that was learned.
     guide: Option<Arc<Guide>>,
 }
@@ -167,9 +169,13 @@ impl Integrator {
         // Look up how the surface scatters
         let vertex = path.vertex;
         let random = |dimension| sampler.uniform(Dimension::vertex(vertex, dimension));
-        let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_number(random(VertexDimension::Blend)));
+        let u_blend = visitor.round_number(random(VertexDimension::Blend));
+        let bsdf = Bsdf::new(&self.scene, &surface, wo, u_blend);
         visitor.view(&bsdf.view);
-        let scatterer = Scatterer::Surface(GuidedBsdf::new(self.guide(), &surface, &bsdf));
+        let [key, other] = [VertexDimension::Blend, VertexDimension::Lobe].map(|dimension| sampler.bits(Dimension::vertex(vertex, dimension)));
+        let (layers, key) = ((&self.scene, &self.layers), mix(key ^ mix(other)));
+        let scatterer = SurfaceScatterer::new(layers, self.guide(), (&surface, &bsdf), u_blend, key);
+        let scatterer = Scatterer::Surface(scatterer);
         self.scatter(path, &Interaction::surface(&surface, &bsdf), &scatterer, sampler, visitor)
     }
 
@@ -420,7 +426,8 @@ impl Integrator {
 
         // Weigh the sample: no BSDF sample finds a point light, and with `nee` BSDF samples leave all
         // emission to light samples
-        let scattering = scatterer.evaluate(light.wi);
+        let numbers = mix(choice ^ mix(u ^ mix(v)));
+        let scattering = scatterer.evaluate(light.wi, numbers);
         if scattering.value.is_black() {
             return;
         }
@@ -435,7 +442,6 @@ impl Integrator {
         visitor.round_ray(&mut ray, Some(point));
         visitor.ray(&ray);
         let stack = interaction.media_towards(path.stack, &self.media, light.wi);
-        let numbers = mix(choice ^ mix(u ^ mix(v)));
         let through = self.shadow_transmittance(ray, &light, (stack, numbers), &path.time);
         let contribution = path.throughput * scattering.value * light.radiance * (weight / light.pdf) * through;
         path.radiance += contribution;

@@ -160,9 +160,9 @@ impl PathVisitor for Rounding {
 
     fn round_sample(&mut self, sample: &mut BsdfSample, scatterer: &Scatterer<'_>) {
         // The density of a narrow lobe changes much faster than the direction.
-        let exact = scatterer.evaluate(sample.wi).pdf;
+        let exact = scatterer.pdf(sample.wi);
         self.round_direction(&mut sample.wi);
-        let rounded = scatterer.evaluate(sample.wi).pdf;
+        let rounded = scatterer.pdf(sample.wi);
         if let Density::SolidAngle(pdf) = &mut sample.density
             && exact > 0.0
             && rounded > 0.0

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample, Density, Evaluation};
-use super::guided::{GuidedBsdf, GuidedPhase};
+use super::guided::GuidedPhase;
 use super::intersect::{Surface, SurfacePoint};
+use super::layered::SurfaceScatterer;
 use super::medium::MediumStack;
 use crate::scene::Media;
 
@@ -51,16 +52,25 @@ impl<'a> Interaction<'a> {
 /// How light is scattered there. Values are f·|cosθi| of surfaces, and those of the phase function within media.
 #[derive(Debug, Clone, Copy)]
 pub enum Scatterer<'a> {
-    Surface(GuidedBsdf<'a>),
+    Surface(SurfaceScatterer<'a>),
     Medium(GuidedPhase<'a>),
 }
 
 impl Scatterer<'_> {
     /// The value towards a direction, delta lobes left out, and the density with which it is drawn.
-    pub fn evaluate(&self, wi: DVec3) -> Evaluation {
+    /// `key` is that of the numbers by which stacks of layers estimate the value.
+    pub fn evaluate(&self, wi: DVec3, key: u32) -> Evaluation {
         match self {
-            Self::Surface(bsdf) => bsdf.evaluate(wi),
+            Self::Surface(bsdf) => bsdf.evaluate(wi, key),
             Self::Medium(phase) => phase.evaluate(wi),
+        }
+    }
+
+    /// The density with which a direction is drawn, delta lobes left out; of stacks of layers, about that.
+    pub fn pdf(&self, wi: DVec3) -> f64 {
+        match self {
+            Self::Surface(bsdf) => bsdf.pdf(wi),
+            Self::Medium(phase) => phase.evaluate(wi).pdf,
         }
     }
 
@@ -89,7 +99,7 @@ impl Scatterer<'_> {
         }
     }
 
-    /// [`GuidedBsdf::sent_on`] of surfaces with a guide.
+    /// [`SurfaceScatterer::sent_on`] of surfaces with a guide.
     pub fn sent_on(&self) -> Option<[f64; 2]> {
         match self {
             Self::Surface(bsdf) => bsdf.sent_on(),
@@ -97,7 +107,7 @@ impl Scatterer<'_> {
         }
     }
 
-    /// [`GuidedBsdf::unguided`]
+    /// [`SurfaceScatterer::unguided`]
     pub fn unguided(&self, wi: DVec3, density: Density) -> f64 {
         match self {
             Self::Surface(bsdf) => bsdf.unguided(wi, density),

@@ -11,25 +11,25 @@ use crate::scene::{BlendWeight, Material, MaterialId, MaterialKind, Scene};
 /// Calls `visit` with the material itself, the blends in it and the plain materials at their ends, each before its own parts, the first of two before the
 /// second, with their weights at one hit. Parts of weight 0 do nothing and are left out.
 pub fn for_each_part<'a>(lookup: &Lookup<'a>, material: MaterialId, mut visit: impl FnMut(&'a Material, f64)) {
-    for_each_sided_part(lookup, material, |part, weight, _| visit(part, weight));
+    for_each_sided_part(lookup, material, |id, weight, _| visit(&lookup.scene.materials[id], weight));
 }
 
 /// Visits each part with its weight, and says that it scatters light on both sides: it and all blends that it
 /// is in do.
-pub fn for_each_sided_part<'a>(lookup: &Lookup<'a>, material: MaterialId, visit: impl FnMut(&'a Material, f64, bool)) {
+pub fn for_each_sided_part(lookup: &Lookup<'_>, material: MaterialId, visit: impl FnMut(MaterialId, f64, bool)) {
     walk(lookup.scene, material, |blend| blend_weight::weight(blend, lookup), visit);
 }
 
 /// Visits each part with the weight to be expected before any hit is known.
 pub fn for_each_part_on_average<'a>(scene: &'a Scene, material: MaterialId, mut visit: impl FnMut(&'a Material, f64)) {
-    walk(scene, material, blend_weight::mean_weight, |part, weight, _| visit(part, weight));
+    walk(scene, material, blend_weight::mean_weight, |id, weight, _| visit(&scene.materials[id], weight));
 }
 
-fn walk<'a>(
-    scene: &'a Scene,
+fn walk(
+    scene: &Scene,
     material: MaterialId,
     first_weight: impl Fn(&BlendWeight) -> f64,
-    mut visit: impl FnMut(&'a Material, f64, bool),
+    mut visit: impl FnMut(MaterialId, f64, bool),
 ) {
     let mut next = Some((material, 1.0, true));
     // Second parts that wait for the first to be walked through. Plain materials never touch it.
@@ -39,7 +39,7 @@ fn walk<'a>(
         parts_walked += 1;
         let part = &scene.materials[id];
         let two_sided = two_sided && part.two_sided;
-        visit(part, weight, two_sided);
+        visit(id, weight, two_sided);
         if let MaterialKind::Blend { materials: [first, second], weight: blend_weight } = &part.kind {
             let w0 = first_weight(blend_weight);
             let parts = [(*second, weight * (1.0 - w0), two_sided), (*first, weight * w0, two_sided)];

@@ -11,7 +11,7 @@ use super::view::View;
 use crate::reference::intersect::{Surface, UvSet};
 use crate::reference::work;
 use crate::sampling::sampler::LARGEST_NUMBER;
-use crate::scene::{BlendMode, Material, MaterialId, Scene};
+use crate::scene::{BlendMode, MaterialId, Scene};
 use crate::spectrum::Spectrum;
 
 /// The scattering at one hit: the lobes of all materials that the surface blends, parameters looked up, seen from one direction.
@@ -26,6 +26,8 @@ use crate::spectrum::Spectrum;
 pub struct Bsdf {
     pub view: View,
     lobes: Lobes,
+    /// The sum of all lobes' weights, each times about the share of light that the lobe scatters.
+    total: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,10 +59,11 @@ impl Lobes {
         self.first.iter().chain(&self.others)
     }
 
-    fn normalized(mut self) -> Self {
+    /// With probabilities that add up to 1, and what they added up to before.
+    fn normalized(mut self) -> (Self, f64) {
         let sum: f64 = self.iter().map(|weighted| weighted.probability).sum();
         self.first.iter_mut().chain(&mut self.others).for_each(|weighted| weighted.probability /= sum);
-        self
+        (self, sum)
     }
 }
 
@@ -79,25 +82,35 @@ impl Bsdf {
         let material = surface.owner.material;
         if scene.render.blend == BlendMode::Pick {
             let picked = pick(&lookup, material, u_blend).filter(|(_, two_sided)| *two_sided || view.front);
-            let picked = picked.and_then(|(part, _)| Lobe::of(&part.kind, &lookup));
+            let picked = picked.and_then(|(part, _)| Lobe::of(&scene.materials[part].kind, &lookup));
             return Self::mixture(view, picked.map(|lobe| (lobe, 1.0)));
         }
         let mut lobes = Collected::default();
         blend::for_each_sided_part(&lookup, material, |part, weight, two_sided| {
             if (two_sided || view.front)
-                && let Some(lobe) = Lobe::of(&part.kind, &lookup)
+                && let Some(lobe) = Lobe::of(&scene.materials[part].kind, &lookup)
             {
                 lobes.push(lobe, weight);
             }
         });
-        Self { view, lobes: lobes.finish() }
+        Self::of_lobes(view, lobes)
     }
 
     /// A surface of the given lobes, each with its weight.
     pub(super) fn mixture(view: View, lobes: impl IntoIterator<Item = (Lobe, f64)>) -> Self {
         let mut collected = Collected::default();
         lobes.into_iter().for_each(|(lobe, weight)| collected.push(lobe, weight));
-        Self { view, lobes: collected.finish() }
+        Self::of_lobes(view, collected)
+    }
+
+    fn of_lobes(view: View, collected: Collected) -> Self {
+        let (lobes, total) = collected.finish().normalized();
+        Self { view, lobes, total }
+    }
+
+    /// The sum of all lobes' weights, each times about the share of light that the lobe scatters.
+    pub fn total(&self) -> f64 {
+        self.total
     }
 
     /// Says that light sampling can contribute.
@@ -183,19 +196,19 @@ impl Collected {
     }
 
     fn finish(self) -> Lobes {
-        let Some(reflectance) = self.diffuse else { return self.others.normalized() };
+        let Some(reflectance) = self.diffuse else { return self.others };
         let mut lobes = Lobes::default();
         lobes.push(Lobe::Diffuse(Diffuse { reflectance }), 1.0);
         self.others.iter().for_each(|weighted| lobes.push(weighted.lobe, weighted.weight));
-        lobes.normalized()
+        lobes
     }
 }
 
 /// The part whose share of [0, 1), as long as its weight, holds `u`.
-fn pick<'a>(lookup: &Lookup<'a>, material: MaterialId, u: f64) -> Option<(&'a Material, bool)> {
+pub fn pick(lookup: &Lookup<'_>, material: MaterialId, u: f64) -> Option<(MaterialId, bool)> {
     let (mut before, mut picked) = (0.0, None);
     blend::for_each_sided_part(lookup, material, |part, weight, two_sided| {
-        if !part.is_blend() {
+        if !lookup.scene.materials[part].is_blend() {
             // The last one also gets what rounding leaves.
             if u >= before || picked.is_none() {
                 picked = Some((part, two_sided));

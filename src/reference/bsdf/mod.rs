@@ -37,8 +37,9 @@ mod thin_film;
 mod thin_glass;
 mod view;
 
+pub use fresnel::refract;
 pub use lookup::Lookup;
-pub use mixture::Bsdf;
+pub use mixture::{Bsdf, pick};
 pub use scatter::{BsdfSample, Density, Evaluation};
 pub use view::View;
 

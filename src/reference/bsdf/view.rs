@@ -149,7 +149,7 @@ impl View {
     }
 
     /// Says that light from `wi` can come through to wo: on the other side, by the true and by the interpolated surface.
-    pub(super) fn transmits(&self, wi: DVec3) -> bool {
+    pub fn transmits(&self, wi: DVec3) -> bool {
         wi.dot(self.geometric_normal) < 0.0 && wi.dot(self.normal()) < 0.0
     }
 

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use super::Integrator;
 use crate::reference::camera::ProjectiveCamera;
 use crate::reference::intersect::{Outline, Owner, PathTime, Ray, World};
+use crate::reference::layered::LayersOfMaterials;
 use crate::reference::lights::Lights;
 use crate::reference::medium::MediumStack;
 use crate::renderer::RenderError;
@@ -32,7 +33,8 @@ impl Integrator {
         let is_bright = |emission: &Emission| emission.radiance != ColorInput::Constant(Spectrum::BLACK);
         let hidden = scene.materials_that(|material| hides && material.emission.as_ref().is_some_and(is_bright));
         let media = Media::of(scene);
-        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, media, guide: None })
+        let layers = LayersOfMaterials::new(scene);
+        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, media, layers, guide: None })
     }
 
     /// Draws directions by a guide as well, or by none.

@@ -43,14 +43,6 @@ name = "white"
 type = "diffuse"
 reflectance = 0.8
 [[material]]
-name = "red"
-type = "diffuse"
-reflectance = [0.7, 0.1, 0.05]
-[[material]]
-name = "mirror"
-type = "mirror"
-reflectance = 0.9
-[[material]]
 name = "gold"
 type = "conductor"
 preset = "gold"
@@ -108,7 +100,7 @@ const TEXTURES: [(&str, &str); 5] = [
 pub fn stage(material: &str) -> Scene {
     let is_used = |name: &str| material.contains(&format!("\"{name}\""));
     let textures: String = TEXTURES.into_iter().filter(|(name, _)| is_used(name)).map(|(_, text)| text).collect();
-    let text = format!("{STAGE}{textures}\n[[material]]\nname = \"m\"\n{material}\n");
+    let text = format!("{STAGE}{}{textures}\n[[material]]\nname = \"m\"\n{material}\n", load::file::EXAMPLE_MATERIALS);
     load::load_toml_str(&text, "stage.toml", BUMPS.path()).unwrap_or_else(|error| panic!("{error}\n{material}"))
 }
 

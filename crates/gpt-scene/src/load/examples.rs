@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::file::{light_examples_of, material_examples, shape_examples};
+use super::file::{EXAMPLE_MATERIALS, light_examples_of, material_examples, shape_examples};
 use super::scene_file::load_toml_str;
 
 /// Spheres in a row; they stand this far apart.
@@ -25,16 +25,6 @@ position = [0, 6.5, 11]
 look_at  = [0, 0.3, -0.6]
 vfov     = 36
 shutter  = [0, 1]
-
-[[material]]
-name = "red"
-type = "diffuse"
-reflectance = [0.6, 0.1, 0.1]
-
-[[material]]
-name = "mirror"
-type = "mirror"
-reflectance = 0.8
 
 [[material]]
 name = "floor"
@@ -62,7 +52,7 @@ material = "floor"
 
 /// The scene file.
 pub fn scene() -> String {
-    let mut text = STAGE.to_owned();
+    let mut text = format!("{STAGE}{EXAMPLE_MATERIALS}");
     // A string takes all that is written.
     for (place, (_, keys)) in material_examples().enumerate() {
         let (column, row) = ((place % ROW) as f64, (place / ROW) as f64);

@@ -56,7 +56,8 @@ impl Filling {
         Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_light_sampled: false, is_dark: false }
     }
 
-    fn of(medium: &Medium) -> Self {
+    /// A medium of a scene.
+    pub fn of(medium: &Medium) -> Self {
         let Medium { scattering, emission, .. } = *medium;
         let (phase, grids) = (medium.phase.clone(), medium.grids.clone());
         Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_light_sampled: false, is_dark: false }

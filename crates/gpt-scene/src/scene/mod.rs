@@ -49,8 +49,8 @@ pub use light::{
     OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
 pub use material::{
-    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, LobeKind, LobeParameters, LobeSupport,
-    Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled, Subsurface,
+    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, FlatLayer, LayerModel, Layers, LobeKind, LobeParameters, LobeSupport,
+    Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled, Slab, Subsurface,
     ThinFilm,
 };
 pub use media::{Filling, Media};

@@ -104,13 +104,13 @@ impl Scene {
         self.materials.iter_mut().for_each(|material| material.interior = None);
     }
 
-    /// For each material, true if it, or one of those that it blends at any depth, is as `wanted`. The search goes from those that are up to all that are made of them, so the time does not depend on how deep blends are nested.
+    /// For each material, true if it, or one of those that it is made of at any depth, is as `wanted`. The search goes from those that are up to all that are made of them, so the time does not depend on how deep blends are nested.
     #[doc(hidden)]
     pub fn materials_that(&self, wanted: impl Fn(&Material) -> bool) -> Vec<bool> {
         let mut wholes: Vec<Vec<MaterialId>> = vec![Vec::new(); self.materials.len()];
         for (id, material) in self.materials.iter().enumerate() {
             // Parts that do not exist are for the check of the scene to refuse.
-            material.parts().iter().for_each(|&part| wholes.get_mut(part).into_iter().for_each(|wholes| wholes.push(id)));
+            material.components().iter().for_each(|&part| wholes.get_mut(part).into_iter().for_each(|wholes| wholes.push(id)));
         }
         let mut found: Vec<bool> = self.materials.iter().map(wanted).collect();
         let mut to_visit: Vec<MaterialId> = (0..found.len()).filter(|&id| found[id]).collect();
@@ -160,6 +160,14 @@ impl Scene {
         (0..self.materials.len()).map(differs).collect()
     }
 
+    /// For each material, true of a stack in which an interface has a normal map of its own.
+    #[doc(hidden)]
+    pub fn layers_are_bent(&self) -> Vec<bool> {
+        let bent = |&id: &MaterialId| self.materials[id].normal_map.is_some();
+        let own = |material: &Material| !material.is_blend() && material.components().iter().any(bent);
+        self.materials_that(own)
+    }
+
     /// The material emits, by itself or through a part of it.
     #[doc(hidden)]
     pub fn emits(&self, material: MaterialId) -> bool {
@@ -175,10 +183,8 @@ impl Scene {
             if wanted(part) {
                 return true;
             }
-            if let MaterialKind::Blend { materials, .. } = &part.kind
-                && !std::mem::replace(&mut seen[id], true)
-            {
-                to_visit.extend_from_slice(materials);
+            if !std::mem::replace(&mut seen[id], true) {
+                to_visit.extend_from_slice(part.components());
             }
         }
         false

@@ -9,7 +9,7 @@ use super::blend_tree::check_blends;
 use super::camera::{ApertureShape, Camera, Projection};
 use super::check::{Check, image, is_amount, is_positive, within_range};
 use super::light::{Environment, EnvironmentRadiance, Light};
-use super::material::{BlendWeight, Material, MaterialId, MaterialKind, ParameterType, Subsurface};
+use super::material::{BlendWeight, Layers, Material, MaterialId, MaterialKind, ParameterType, Subsurface};
 use super::medium::MediumId;
 use super::model::Scene;
 use super::settings::BadSetting;
@@ -106,6 +106,9 @@ impl Scene {
             }
             self.weight(weight)?;
         }
+        if let MaterialKind::Layered(layers) = &material.kind {
+            self.check_layers(layers)?;
+        }
         if let MaterialKind::Principled(principled) = &material.kind
             && principled.coat_normal_map.is_some_and(|map| !map.scale.is_finite())
         {
@@ -135,6 +138,23 @@ impl Scene {
             (ParameterType::SignedScalar | ParameterType::Vector, ColorInput::Constant(vector)) if vector.is_finite() => Ok(()),
             _ => self.color(&input),
         })
+    }
+
+    fn check_layers(&self, layers: &Layers) -> Check {
+        layers.interfaces.iter().try_for_each(|&id| self.material_exists(id))?;
+        if layers.interfaces.is_empty() || layers.slabs.len() + 1 != layers.interfaces.len() {
+            return Err("it needs an interface, and one slab between each two".into());
+        }
+        for slab in &layers.slabs {
+            self.color(&slab.thickness)?;
+            let Some(id) = slab.medium else { continue };
+            self.medium_exists(id)?;
+            let medium = &self.media[id];
+            if medium.grids.is_some() || !medium.emission.is_black() {
+                return Err(format!("the medium `{}` of a slab must be the same everywhere, and give off no light", medium.name));
+            }
+        }
+        layers.interfaces.iter().try_for_each(|&id| self.check_interface(id))
     }
 
     fn weight(&self, mut weight: &BlendWeight) -> Check {

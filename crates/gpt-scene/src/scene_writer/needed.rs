@@ -72,12 +72,12 @@ fn brings_materials<'s>(scene: &'s Scene, shape: &Shape) -> Option<&'s [(String,
     named_file(scene, mesh).filter(|source| source.own_materials).map(|source| source.replaced.as_slice())
 }
 
-/// Marks a material and all that it is blended of.
+/// Marks a material and all that it is made of.
 fn mark(scene: &Scene, marks: &mut [bool], id: MaterialId) {
     let mut to_visit = vec![id];
     while let Some(id) = to_visit.pop() {
         if !std::mem::replace(&mut marks[id], true) {
-            to_visit.extend_from_slice(scene.materials[id].parts());
+            to_visit.extend_from_slice(scene.materials[id].components());
         }
     }
 }
@@ -89,8 +89,10 @@ fn textures_of(material: &Material) -> Vec<TextureId> {
         material.kind.lobe().iter().flat_map(|lobe| lobe.inputs()).filter_map(|(_, input)| of_input(input)).collect();
     textures.extend(material.emission.and_then(|emission| of_input(emission.radiance)));
     textures.extend(material.normal_map);
-    if let MaterialKind::Blend { weight, .. } = &material.kind {
-        textures.extend(texture_of_weight(weight));
+    match &material.kind {
+        MaterialKind::Blend { weight, .. } => textures.extend(texture_of_weight(weight)),
+        MaterialKind::Layered(layers) => textures.extend(layers.slabs.iter().filter_map(|slab| slab.thickness.texture())),
+        _ => {}
     }
     textures
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use tempfile::tempdir;
 
 use super::*;
-use crate::load::file::{light_examples, material_examples, shape_examples};
+use crate::load::file::{EXAMPLE_MATERIALS, light_examples, material_examples, shape_examples};
 use crate::load::load_toml_str;
 use crate::load::{builtin_names, load};
 use crate::scene::{Geometry, Mesh, digest};
@@ -46,7 +46,9 @@ fn every_built_in_scene_comes_back() {
 #[test]
 fn every_material_comes_back() {
     for (name, keys) in material_examples() {
-        comes_back(&scene(&format!("[[material]]\nname = \"probe\"\n{keys}{SPHERE}{POINT_LIGHT}")), name);
+        let text = format!("{HEAD}{EXAMPLE_MATERIALS}[[material]]\nname = \"probe\"\n{keys}{SPHERE}{POINT_LIGHT}");
+        let read = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        comes_back(&read, name);
     }
     let textured = "[[texture]]\nname = \"noise\"\ntype = \"perlin\"\na = 0.1\nb = [0.5, 0.25, \"0\"]\noctaves = 3\nseed = 7\nscale = 2.5\n\
                     [[texture]]\nname = \"tiles\"\ntype = \"checker\"\na = 0.1\nb = \"#808080\"\nscale = [3, 4]\n\

@@ -31,7 +31,7 @@ pub(crate) use document::FORMAT_VERSION;
 pub(super) use document::{Document, stem};
 pub(crate) use light::write_light;
 pub use light::{examples as light_examples, examples_of as light_examples_of, strength_key};
-pub use material::examples as material_examples;
+pub use material::{EXAMPLE_MATERIALS, examples as material_examples};
 pub(crate) use material::write_kind;
 pub(crate) use medium::write as write_medium;
 pub(crate) use place_file::{place_rows, write_places};

@@ -217,7 +217,7 @@ impl<'a> Resolver<'a> {
         }
         // Materials that model files add consist of earlier ones.
         while let Some(material) = self.scene.materials.get(self.textured.len()) {
-            let of_part = material.parts().iter().any(|&part| self.textured[part]);
+            let of_part = material.components().iter().any(|&part| self.textured[part]);
             self.textured.push(of_part || material.uses_texture());
         }
         self.textured[id]

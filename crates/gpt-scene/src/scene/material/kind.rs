@@ -1,6 +1,7 @@
 //! The types of materials, and the lobes that they scatter by.
 
 use super::blend_weight::BlendWeight;
+use super::layers::Layers;
 use super::dispersion::{Dispersion, iors};
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
 use super::parameters::{self, ParameterType, place};
@@ -57,6 +58,8 @@ pub enum MaterialKind {
     Emissive,
     /// w0·first + (1 − w0)·second.
     Blend { materials: [MaterialId; 2], weight: BlendWeight },
+    /// Interfaces one above the other, and what lies between them.
+    Layered(Box<Layers>),
     /// The ray goes on as if nothing were there.
     Pass,
 }
@@ -266,7 +269,7 @@ impl MaterialKind {
             }
             Self::Principled(ref principled) => principled.lobe(),
             Self::Pass => LobeParameters::new(LobeKind::Null, ColorInput::grey(0.0)),
-            Self::Emissive | Self::Blend { .. } => return None,
+            Self::Emissive | Self::Blend { .. } | Self::Layered(_) => return None,
         })
     }
 }

@@ -4,6 +4,7 @@ mod albedo;
 mod blend_weight;
 pub mod dispersion;
 mod kind;
+mod layers;
 mod microfacets;
 mod parameters;
 mod plastic;
@@ -21,6 +22,7 @@ pub use kind::{
     DIFFUSE_TRANSMITS, DIRECTED, DISPERSED, FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN,
     SMALLEST_BEND, SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS, UNTINTED,
 };
+pub use layers::{FlatLayer, LayerModel, Layers, MOST_INTERFACES, Slab};
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use parameters::{Parameter, ParameterType};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
@@ -82,6 +84,14 @@ impl Material {
         match &self.kind {
             MaterialKind::Blend { materials, .. } => materials,
             _ => &[],
+        }
+    }
+
+    /// The materials that it is made of: of a blend its parts, of a stack its interfaces; else none.
+    pub fn components(&self) -> &[MaterialId] {
+        match &self.kind {
+            MaterialKind::Layered(layers) => &layers.interfaces,
+            _ => self.parts(),
         }
     }
 

@@ -64,6 +64,7 @@ macro_rules! material_table {
             }
             Emissive emissive {}
             Blend blend {}
+            Layered layered {}
             Pass pass { Null null NULL_SURFACES Delta }
         }
     };

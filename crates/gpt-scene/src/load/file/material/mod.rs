@@ -10,6 +10,7 @@ pub mod emissive;
 pub mod glass;
 pub mod glossy;
 mod keys;
+pub mod layered;
 pub mod mirror;
 pub mod opacity;
 pub mod pass;
@@ -104,17 +105,53 @@ impl MaterialEntry {
         }
     }
 
-    /// The names of the materials that it blends.
+    /// The names of the materials that it is made of: parts of a blend, interfaces of a stack.
     pub fn parts(&self) -> &[Located<String>] {
-        if let Self::Blend(keys) = self { &keys.materials.0 } else { &[] }
+        match self {
+            Self::Blend(keys) => &keys.materials.0,
+            Self::Layered(keys) => &keys.interfaces.0,
+            _ => &[],
+        }
     }
 
     pub fn parts_mut(&mut self) -> &mut [Located<String>] {
-        if let Self::Blend(keys) = self { &mut keys.materials.0 } else { &mut [] }
+        match self {
+            Self::Blend(keys) => &mut keys.materials.0,
+            Self::Layered(keys) => &mut keys.interfaces.0,
+            _ => &mut [],
+        }
     }
 }
 
-/// `type` and keys, as TOML, of examples of every material. Those of blends name the materials `red` and `mirror`.
+/// What the examples of materials that are made of others name, as TOML.
+pub const EXAMPLE_MATERIALS: &str = r#"
+[[medium]]
+name = "pigment"
+absorption = [0.5, 1, 2]
+scattering = [3, 2, 1]
+
+[[material]]
+name = "red"
+type = "diffuse"
+reflectance = [0.7, 0.1, 0.1]
+
+[[material]]
+name = "mirror"
+type = "mirror"
+
+[[material]]
+name = "varnish"
+type = "glass"
+ior = 1.5
+
+[[material]]
+name = "frost"
+type = "rough_glass"
+ior = 1.4
+alpha = 0.3
+"#;
+
+/// `type` and keys, as TOML, of examples of every material, which go with [`EXAMPLE_MATERIALS`].
 pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
     let of_type = |&(name, examples): &(&'static str, &'static [&'static str])| {
         examples.iter().map(move |keys| (name, format!("type = \"{name}\"\n{keys}\n")))
