@@ -8,11 +8,12 @@ use super::blend_parts::{BlendPart, BlendParts, MOST_WEIGHTS, lambert_of_the_mea
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::constants::NONE;
 use super::error::PackError;
+use super::layers::{LAYERS_STRAIGHT, LayerRun, PackedLayer, with_interfaces};
 use super::medium::PackedMedia;
 use super::texture::mention;
 use crate::scene::material::{self, AlbedoTable};
 use crate::scene::{
-    BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Masking, Material, MaterialId, MaterialKind, Media, Scene,
+    BlendMode, Channel, ChannelInput, ColorInput, Layers, LobeKind, Masking, Material, MaterialId, MaterialKind, Media, Scene,
 };
 use crate::shader::shared::{Constant, Constants, shared_constants};
 use crate::spectrum::Spectrum;
@@ -24,6 +25,8 @@ shared_constants!(flags {
     /// A packed material's kind is its lobe's number; this where it has no lobe, and the next where it is a blend.
     pub const NO_LOBE: u32 = LobeKind::ALL.len() as u32;
     pub const BLEND: u32 = NO_LOBE + 1;
+    /// A stack of layers.
+    pub const LAYERED: u32 = NO_LOBE + 2;
     /// Words of a material in the tables.
     pub const MATERIAL_WORDS: u32 = (size_of::<PackedMaterial>() / 16) as u32;
     /// Flag beside the kind of a conductor: its colours are eta and k.
@@ -94,8 +97,9 @@ pub struct PackedMaterial {
     /// The kind in eight bits, above them the lobe's form.
     pub kind_and_form: u32,
     /// [`LobeParameters::color1`](crate::scene::LobeParameters). Of a blend, as bits: its first part, their number, and the number of inner
-    /// blends behind them that emit by themselves.
+    /// blends behind them that emit by themselves. Of a stack: its first layer, and their number with its flags.
     pub color1: [f32; 3],
+    /// Of a stack, its largest breadth.
     pub ior: f32,
     pub emission: [f32; 3],
     /// Flags of the two sides: which emit, and which scatter nothing.
@@ -171,6 +175,8 @@ pub struct PackedMaterials {
     /// The media that surfaces enclose, and the one around the camera.
     pub media: PackedMedia,
     pub parts: Vec<PackedBlendPart>,
+    /// The layers of all stacks.
+    pub layers: Vec<PackedLayer>,
     pub weights: Vec<PackedBlendWeight>,
 }
 
@@ -219,9 +225,10 @@ impl PackedMaterials {
         let media = Media::of(scene);
         packed.media = PackedMedia::new(&media, of_surfaces)?;
         let has_media = !packed.media.is_empty();
-        for &id in of_surfaces {
-            let mut material = match scene.materials[id].kind {
+        for id in with_interfaces(scene, of_surfaces.iter().copied()) {
+            let mut material = match &scene.materials[id].kind {
                 MaterialKind::Blend { .. } => packed.blend(scene, id)?,
+                MaterialKind::Layered(layers) => packed.layered(scene, (id, layers))?,
                 _ => packed.plain(&scene.materials[id]),
             };
             material.emission_flags |= if has_media { (media.behind(id) as u32) << MEDIUM_SHIFT } else { 0 };
@@ -272,6 +279,19 @@ impl PackedMaterials {
             part.material = place as u32;
         }
         self.parts = parts;
+        for layer in &mut self.layers {
+            // Interfaces are packed with what surfaces are made of.
+            layer.interface = places.get(&(layer.interface as MaterialId)).map_or(NONE, |&place| place as u32);
+        }
+    }
+
+    fn layered(&mut self, scene: &Scene, stack: (MaterialId, &Layers)) -> Result<PackedMaterial, PackError> {
+        let mut packed = PackedMaterial::new(&scene.materials[stack.0]);
+        let run = LayerRun::new(scene, stack, &mut self.layers, &mut self.media)?;
+        packed.kind_and_form = LAYERED;
+        packed.color1 = [run.first, run.count_and_flags, 0].map(f32::from_bits);
+        packed.ior = run.most_breadth;
+        Ok(packed)
     }
 
     /// Packs a material that is no blend, or what a blend is besides its parts.
@@ -306,11 +326,13 @@ impl PackedMaterials {
     pub(super) fn textures_mut(&mut self) -> impl Iterator<Item = &mut u32> {
         let of_weights = self.weights.iter_mut().map(|weight| &mut weight.texture);
         let of_further = self.further.iter_mut().map(|parameter| &mut parameter.texture);
+        let of_layers = self.layers.iter_mut().map(PackedLayer::texture_mut);
         self.materials
             .iter_mut()
             .flat_map(PackedMaterial::textures_mut)
             .chain(of_weights)
             .chain(of_further)
+            .chain(of_layers)
             .filter(|texture| **texture != NONE)
     }
 
@@ -440,7 +462,7 @@ impl PackedMaterial {
 
     /// Its lobe reads other numbers than those it has where none are loaded.
     pub fn uses_color1(&self) -> bool {
-        self.kind() != BLEND && (self.color1 != [0.0; 3] || self.color1_texture != NONE || self.ior != 1.0)
+        ![BLEND, LAYERED].contains(&self.kind()) && (self.color1 != [0.0; 3] || self.color1_texture != NONE || self.ior != 1.0)
     }
 
     /// How many of its further parameters a hit looks up.
@@ -456,6 +478,11 @@ impl PackedMaterial {
     /// One of the forms of its lobe, by its bit in [`LobeParameters::form`](crate::scene::LobeParameters).
     pub fn has_form(&self, form: u32) -> bool {
         self.kind_and_form >> FORM_SHIFT & form != 0
+    }
+
+    /// Of a stack, whether light goes straight down and up in it.
+    pub fn is_straight_stack(&self) -> Option<bool> {
+        (self.kind() == LAYERED).then(|| self.color1[1].to_bits() & LAYERS_STRAIGHT != 0)
     }
 
     /// Its back scatters nothing.

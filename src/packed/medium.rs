@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::error::PackError;
 use super::volume::{PackedVolume, PackedVolumes};
 use crate::scene::media;
-use crate::scene::{Filling, MaterialId, Media, PhaseKind, PhaseLobe};
+use crate::scene::{Filling, MaterialId, Media, Phase, PhaseKind, PhaseLobe};
 use crate::shader::shared::shared_constants;
 
 /// Media have numbers of 16 bits, from 1.
@@ -90,12 +90,27 @@ impl PackedMedia {
         Ok(packed)
     }
 
-    fn medium(&mut self, filling: &Filling) -> Result<PackedMedium, PackError> {
-        let (first, count) = (self.phases.len(), filling.phase.0.len());
+    /// Adds a phase function: the first of its lobes, and above `PHASE_COUNT_SHIFT` their number.
+    ///
+    /// # Errors
+    /// [`PackError::TooManyPhases`]
+    pub fn phase(&mut self, phase: &Phase) -> Result<u32, PackError> {
+        let (first, count) = (self.phases.len(), phase.0.len());
         if first >= 1 << PHASE_COUNT_SHIFT || count >= 1 << (31 - PHASE_COUNT_SHIFT) {
             return Err(PackError::TooManyPhases);
         }
-        self.phases.extend(filling.phase.0.iter().map(packed_lobe));
+        self.phases.extend(phase.0.iter().map(packed_lobe));
+        Ok(first as u32 | (count as u32) << PHASE_COUNT_SHIFT)
+    }
+
+    /// Such a run of lobes stands within a table of so many, and is not empty.
+    pub fn has_phase(phase: u32, length: usize) -> bool {
+        let (first, count) = (phase & ((1 << PHASE_COUNT_SHIFT) - 1), (phase & !PHASE_IS_DARK) >> PHASE_COUNT_SHIFT);
+        count != 0 && (first + count) as usize <= length
+    }
+
+    fn medium(&mut self, filling: &Filling) -> Result<PackedMedium, PackError> {
+        let phase = self.phase(&filling.phase)?;
         let first_volume = self.volumes.volumes.len() as u32;
         let grids = filling.grids.as_deref();
         if let Some(grids) = grids {
@@ -114,7 +129,7 @@ impl PackedMedia {
                 | flag(grids.is_some_and(|grids| grids.albedo().is_some()), MEDIUM_HAS_ALBEDOS)
                 | flag(grids.is_some_and(|grids| grids.emission().is_some()), MEDIUM_HAS_GLOW),
             scattering: filling.scattering.to_f32(),
-            phase: first as u32 | (count as u32) << PHASE_COUNT_SHIFT | flag(filling.is_dark, PHASE_IS_DARK),
+            phase: phase | flag(filling.is_dark, PHASE_IS_DARK),
             emission: filling.emission.to_f32(),
             first_volume,
         })
@@ -130,10 +145,8 @@ impl PackedMedia {
             return Err(format!("the camera is within medium {} of {}", self.around_camera, self.media.len()));
         }
         for (index, medium) in self.media.iter().enumerate() {
-            let (first, count) =
-                (medium.phase & ((1 << PHASE_COUNT_SHIFT) - 1), (medium.phase & !PHASE_IS_DARK) >> PHASE_COUNT_SHIFT);
-            if count == 0 || (first + count) as usize > self.phases.len() {
-                return Err(format!("medium {index} has {count} phase lobes from {first} on"));
+            if !Self::has_phase(medium.phase, self.phases.len()) {
+                return Err(format!("medium {index} has the phase lobes {:#x}", medium.phase));
             }
             let volumes = (medium.flags & (MEDIUM_VARIES | MEDIUM_HAS_ALBEDOS | MEDIUM_HAS_GLOW)).count_ones();
             let end = medium.first_volume as usize + volumes as usize;

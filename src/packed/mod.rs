@@ -14,6 +14,7 @@ pub mod grid;
 pub mod guide;
 pub mod hierarchy;
 pub mod instance;
+pub mod layers;
 pub mod light;
 pub mod light_cells;
 pub mod material;

@@ -8,6 +8,7 @@ use super::scene::PackedScene;
 pub struct Tables {
     pub words: Vec<[f32; 4]>,
     pub first_part: u32,
+    pub first_layer: u32,
     pub first_blend_weight: u32,
     pub first_light: u32,
     pub first_texture: u32,
@@ -24,6 +25,7 @@ impl Tables {
         let mut tables = Self::default();
         tables.append(&packed.materials.materials);
         tables.first_part = tables.append(&packed.materials.parts);
+        tables.first_layer = tables.append(&packed.materials.layers);
         tables.first_blend_weight = tables.append(&packed.materials.weights);
         tables.first_light = tables.append(&packed.lights);
         tables.first_texture = tables.append(&packed.textures.textures);

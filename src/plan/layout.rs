@@ -5,7 +5,7 @@ use super::bindings::Binding;
 use super::parameters::{PassParameters, VertexParameters};
 use super::{counters, estimator, path_state, trace_record};
 use crate::packed::{
-    NONE, View, blend_weight, bvh4, guide, instance, light, light_cells, material, medium, motion, primitive, shape, texture,
+    NONE, View, blend_weight, bvh4, guide, instance, layers, light, light_cells, material, medium, motion, primitive, shape, texture,
     view, volume,
 };
 use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
@@ -30,6 +30,7 @@ pub fn constants() -> Constants {
         motion::constants(),
         view::constants(),
         material::constants(),
+        layers::constants(),
         medium::constants(),
         volume::constants(),
         blend_weight::constants(),

@@ -4,7 +4,8 @@ use super::choices::{FilmStorage, MAX_SAMPLES_PER_PASS};
 use super::model::{Plan, SEQUENCE_BLOCKS};
 use crate::packed::hierarchy::Traversal;
 use crate::packed::light::{LightKind, PackedLight};
-use crate::packed::material::{BLEND, NO_LOBE, PackedMaterial};
+use crate::packed::layers::PackedLayer;
+use crate::packed::material::{BLEND, LAYERED, NO_LOBE, PackedMaterial};
 use crate::packed::primitive::Primitive;
 use crate::packed::shape::{PrimitiveKind, SurfaceSampling};
 use crate::packed::texture::{PackedTextureKind, TexelFormat};
@@ -111,6 +112,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("FILM_WIDTH", scene.film.size[0]),
         ("FIRST_BLEND_WEIGHT_WORD", tables.first_blend_weight),
         ("FIRST_FURTHER_WORD", tables.first_further),
+        ("FIRST_LAYER_WORD", tables.first_layer),
         ("FIRST_PART_WORD", tables.first_part),
         ("FIRST_LIGHT_NODE_WORD", tables.first_light_node),
         ("FIRST_LIGHT_WORD", tables.first_light),
@@ -268,13 +270,23 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     for &lobe in LobeKind::ALL {
         switches.enable(lobe.switch(), has(lobe));
     }
+    let has_layers = !packed.materials.layers.is_empty();
+    switches.enable("LAYERED", has_layers);
+    switches.enable("SLABS", packed.materials.layers.iter().any(PackedLayer::is_filled));
+    switches.enable("SLABS_SCATTER", packed.materials.layers.iter().any(PackedLayer::scatters));
+    let is_straight = |straight: bool| materials.iter().any(|material| material.is_straight_stack() == Some(straight));
+    switches.enable("LAYERS_BY_WALK", is_straight(false));
+    switches.enable("LAYERS_STRAIGHT_THROUGH", is_straight(true));
+    let bent = scene.layers_are_bent();
+    let layers_are_bent = has_layers && packed.materials.scene_ids.iter().any(|&id| bent[id]);
+    switches.enable("BENT_LAYERS", layers_are_bent);
     let on_both_sides = |lobe: &LobeKind| lobe.support() == LobeSupport::Sphere;
-    switches.enable("NON_DELTA_TRANSMISSION", LobeKind::ALL.iter().copied().filter(on_both_sides).any(has));
+    switches.enable("NON_DELTA_TRANSMISSION", LobeKind::ALL.iter().copied().filter(on_both_sides).any(has) || has_layers);
     switches.enable("COLOR1", materials.iter().any(PackedMaterial::uses_color1));
     switches.enable("ROUGHNESS", materials.iter().any(PackedMaterial::uses_roughness));
     let blends = packed.materials.has(BLEND);
     switches.enable("BLENDS", blends);
-    let one_lobe = [LobeKind::Diffuse as u32, NO_LOBE, BLEND];
+    let one_lobe = [LobeKind::Diffuse as u32, NO_LOBE, BLEND, LAYERED];
     let more_lobes = materials.iter().any(|material| !one_lobe.contains(&material.kind()));
     let mixture = scene.render.blend == BlendMode::Mixture;
     switches.enable("MIXTURE", blends && mixture);
@@ -321,7 +333,7 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     let coat_normals_differ = scene.coat_normals_differ();
     let coat_normals = packed.materials.scene_ids.iter().any(|&id| coat_normals_differ[id]);
     switches.enable("COAT_NORMALS", coat_normals);
-    switches.enable("TANGENTS", coat_normals || has_form(ANISOTROPIC));
+    switches.enable("TANGENTS", coat_normals || layers_are_bent || has_form(ANISOTROPIC));
     switches.enable("ONE_SIDED", materials.iter().any(PackedMaterial::is_front_only) || packed.materials.has_front_only_parts());
     switches.enable("VARYING_LIGHTS", samples_lights(scene, packed) && packed.lights.iter().any(PackedLight::varies));
 }

@@ -157,6 +157,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("ATTRIBUTES"),
     switch("ATTRIBUTE_CHUNKS").requires(&["ATTRIBUTES"]),
     switch("BECKMANN"),
+    // Some interface of a stack has a normal map of its own.
+    switch("BENT_LAYERS").requires(&["LAYERED", "NORMAL_MAPS", "TANGENTS"]),
     switch("BLENDS").one_of(&["MIXTURE", "PICK"]),
     // Places of scattering are drawn by angle alone, or by distance alone.
     switch("BY_ANGLE").requires(&["SCATTERING"]).excludes(&["BY_DISTANCE"]),
@@ -200,6 +202,10 @@ const OF_FEATURES: &[Switch] = &[
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]).one_of(TEXEL_FORMATS),
     switch("INSTANCES").requires(&["BVH", "TRIANGLES_IN_HIERARCHY"]),
     switch("INSTANCE_CHUNKS").requires(&["INSTANCES"]),
+    // Some material is a stack of layers, through which light walks or goes straight.
+    switch("LAYERED").requires(&["NON_DELTA_TRANSMISSION"]).one_of(&["LAYERS_BY_WALK", "LAYERS_STRAIGHT_THROUGH"]),
+    switch("LAYERS_BY_WALK").requires(&["LAYERED"]),
+    switch("LAYERS_STRAIGHT_THROUGH").requires(&["LAYERED"]),
     // These layers are rendered in place of the picture.
     switch("LAYER_ALBEDO").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
     switch("LAYER_DEPTH").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
@@ -273,6 +279,9 @@ const OF_FEATURES: &[Switch] = &[
     switch("SEPARABLE_MASKING"),
     switch("SEQUENCE"),
     switch("SHEEN").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
+    // Slabs of stacks take light, and scatter it.
+    switch("SLABS").requires(&["LAYERED"]),
+    switch("SLABS_SCATTER").requires(&["SLABS"]),
     switch("SPHERE_LIGHTS_BY_PICTURE").requires(&["ATTRIBUTES", "LIGHTS_BY_PICTURE", "SPHERE_POINTS"]),
     switch("SPHERE_LIGHTS_BY_POINT").requires(&["SPHERE_POINTS"]),
     switch("SPHERE_LIGHTS_VISIBLE_HALF").requires(&["SPHERE_LIGHTS_BY_POINT"]),

@@ -56,6 +56,11 @@ fn guided_probability(bsdf: Bsdf) -> f32 {
     return select(0.0, 1.0, lobe_is_broad(bsdf.lobe));
 }
 
+// The share of light that it scatters, roughly.
+fn sampling_weight_of(bsdf: Bsdf) -> f32 {
+    return lobe_sampling_weight(bsdf.lobe);
+}
+
 fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
     return evaluate_lobe(bsdf.lobe, surface, wo, wi);
 }
@@ -84,10 +89,18 @@ fn shadowed(scattering: Scattering, surface: Surface, light_wi: vec3<f32>) -> Sc
     return found;
 }
 
+// The value towards a light, if one is sampled, and a drawn direction.
+fn scatter(
+    bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
+) -> Scattering {
+    return shadowed(scatter_lobes(bsdf, surface, wo, samples_light, light_wi, choice, u, v), surface, light_wi);
+}
+
+// Both without the shadow that the surface throws on its normal.
 #if MORE_LOBES
 // The surface is evaluated towards the light and along the drawn direction by the same code, one after the
 // other: drivers that copy a function to each of its calls have half of it to compile.
-fn scatter(
+fn scatter_lobes(
     bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
     let draw = draw_direction(bsdf, surface, wo, choice, u, v);
@@ -104,16 +117,16 @@ fn scatter(
             }
         }
     }
-    return shadowed(Scattering(light_value, mixed_sample(draw, draw_value)), surface, light_wi);
+    return Scattering(light_value, mixed_sample(draw, draw_value));
 }
 #else
-fn scatter(
+fn scatter_lobes(
     bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
     var light_value = no_value();
     if samples_light {
         light_value = evaluate_bsdf(bsdf, surface, wo, light_wi);
     }
-    return shadowed(Scattering(light_value, sample_bsdf(bsdf, surface, wo, choice, u, v)), surface, light_wi);
+    return Scattering(light_value, sample_bsdf(bsdf, surface, wo, choice, u, v));
 }
 #endif

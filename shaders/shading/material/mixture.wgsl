@@ -73,6 +73,11 @@ fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
     return bsdf.non_delta_lobe;
 }
 
+// The share of light that it scatters, roughly.
+fn sampling_weight_of(bsdf: Bsdf) -> f32 {
+    return bsdf.total;
+}
+
 // The probability of lobes that scatter in all directions, whose samples a guide may replace.
 fn guided_probability(bsdf: Bsdf) -> f32 {
     if bsdf.total <= 0.0 {

@@ -1,7 +1,7 @@
 // Rays through media that differ from place to place. src/reference/tracking.rs is the same in f64, and says how.
 #import core/layout.wgsl
 #import core/math.wgsl
-#import core/sampler.wgsl
+#import core/stream.wgsl
 #import shading/medium/medium.wgsl
 #import shading/medium/volume.wgsl
 #import shading/medium/volume_crossing.wgsl
@@ -20,17 +20,6 @@ struct TrackedFlight {
     distance: f32,
     // With the albedo of a place where the path is scattered.
     weight: Spectrum,
-}
-
-// Random numbers in (0, 1), as many as are asked for, hashed from a key.
-struct Stream {
-    key: u32,
-    count: u32,
-}
-
-fn draw(stream: ptr<function, Stream>) -> f32 {
-    (*stream).count++;
-    return open_float(mix_bits((*stream).key + (*stream).count * GOLDEN));
 }
 
 // Depth up to the next collision.

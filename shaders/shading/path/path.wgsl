@@ -82,15 +82,6 @@ fn shading_point(surface: Surface) -> vec3<f32> {
     return surface.position + surface.error * surface.facing_normal;
 }
 
-// Key of the random numbers by which a shadow ray passes media with grids, from the bits of its light sample.
-fn passage_key(light_bits: vec4<u32>) -> u32 {
-    if HAS_MEDIUM_GRIDS {
-        return mix_bits(light_bits.x ^ mix_bits(light_bits.y ^ mix_bits(light_bits.z)));
-    } else {
-        return 0u;
-    }
-}
-
 // The shadow ray of one of the light samples that a surface takes, chosen by `light_bits`, given the surface's value towards it.
 fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, light_bits: vec4<u32>, value: BsdfValue) -> ShadowRay {
     let sampled_from = shading_point(surface);
@@ -132,7 +123,7 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
     shadow.radiance = in_layer(radiance, depth + 1u);
     if HAS_OPEN_BOUNDARIES {
         shadow.media = media_towards(surface, light.wi, path.media);
-        shadow.key = passage_key(light_bits);
+        shadow.key = key_of_light(light_bits);
     }
     return shadow;
 }
@@ -142,7 +133,7 @@ fn further_shadow_ray(shaded: ShadedVertex, number: u32) -> ShadowRay {
     let depth = depth_at(shaded.path, shaded.vertex);
     let light_bits = further_light_bits(shaded.path.pixel, shaded.path.sample_in_pass, shaded.vertex, depth, number);
     let light = sample_light(shading_point(shaded.surface), facing_of(shaded.surface), light_bits);
-    let value = evaluate_scatterer(shaded.scatterer, shaded.surface, -shaded.path.ray.direction, light.wi);
+    let value = evaluate_scatterer(shaded.scatterer, shaded.surface, -shaded.path.ray.direction, light.wi, key_of_light(light_bits));
     return shadow_ray(shaded.path, shaded.surface, depth, light, light_bits, value);
 }
 
@@ -215,14 +206,15 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     }
     let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
     let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
-    let scatterer = scatterer_at(surface, phase, wo, uniform_float(more_random.w));
+    let scatterer = scatterer_at(surface, phase, wo, uniform_float(more_random.w), key_of_stack(random.w, more_random.w));
     let samples_light = HAS_LIGHTS && has_non_delta_scattering(scatterer) && !last_edge;
     var light = no_light();
     if samples_light {
         light = sample_light(shading_point(surface), facing_of(surface), random);
     }
     let scattering = scatter_by(
-        scatterer, surface, wo, samples_light, light.wi, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+        scatterer, surface, wo, samples_light, light.wi, key_of_light(random), uniform_float(random.w), uniform_float(more_random.x),
+        uniform_float(more_random.y)
     );
     if samples_light {
         shading.light_samples = light_samples_at(depth);

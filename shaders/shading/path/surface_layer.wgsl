@@ -63,9 +63,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     if depth_at(incoming, vertex) < MAX_DEPTH {
         let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
         let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
-        let scatterer = load_scatterer(surface, wo, uniform_float(more_random.w));
+        let scatterer = load_scatterer(surface, wo, uniform_float(more_random.w), key_of_stack(random.w, more_random.w));
         let scattering = scatter_by(
-            scatterer, surface, wo, false, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+            scatterer, surface, wo, false, wo, 0u, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
         );
         drawn = scattering.drawn;
     }

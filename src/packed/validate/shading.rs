@@ -3,6 +3,7 @@
 use super::Check;
 use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::constants::NONE;
+use crate::packed::layers;
 use crate::packed::light::PackedWarp;
 use crate::packed::light::record::{
     LIGHT_BY_SOLID_ANGLE, LIGHT_FORM_SHIFT, LIGHT_FORMS, LIGHT_MOVES, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES,
@@ -50,6 +51,13 @@ impl PackedScene {
                 return Err(format!("part {index} has {count} factors from {} on", part.first_factor));
             }
         }
+        for (index, layer) in materials.layers.iter().enumerate() {
+            layer.check(materials.media.phases.len()).map_err(|message| format!("layer {index} {message}"))?;
+            // No interface is a stack: kernels walk through one stack at a time.
+            if materials.materials[layer.interface as usize].kind() == material::LAYERED {
+                return Err(format!("layer {index} has material {}, a stack, for its interface", layer.interface));
+            }
+        }
         for (index, weight) in materials.weights.iter().enumerate() {
             let kind = weight.kind_and_flags & 255;
             let known = kind <= WeightKind::Camera as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
@@ -63,7 +71,7 @@ impl PackedScene {
 
     fn check_material(&self, material: &PackedMaterial) -> Check {
         let is_blend = material.kind() == material::BLEND;
-        if material.kind() > material::BLEND || material.kind_and_form >> material::FORM_SHIFT & !FORMS != 0 {
+        if material.kind() > material::LAYERED || material.kind_and_form >> material::FORM_SHIFT & !FORMS != 0 {
             return Err(format!("is of kind {:#x}", material.kind_and_form));
         }
         let own_flags =
@@ -86,6 +94,14 @@ impl PackedScene {
         }
         if !self.materials.albedos.serve(material, self.materials.further.len()) {
             return Err("looks up a table of albedos that is not there".to_owned());
+        }
+        if material.kind() == material::LAYERED {
+            let [first, count, _] = material.color1.map(f32::to_bits);
+            let flags = layers::LAYERS_MIRRORED | layers::LAYERS_STRAIGHT | layers::LAYERS_SCATTER;
+            let (count, unknown) = (count & layers::LAYER_COUNT, count & !(layers::LAYER_COUNT | flags));
+            if count == 0 || unknown != 0 || !is_within(first, count, self.materials.layers.len()) {
+                return Err(format!("has {count} layers from {first} on"));
+            }
         }
         if is_blend {
             let parts = &self.materials.parts;

@@ -9,7 +9,8 @@ use crate::packed::blend_weight::PackedBlendWeight;
 use crate::packed::bvh4::Node;
 use crate::packed::instance::PackedInstance;
 use crate::packed::light::PackedLight;
-use crate::packed::material::{BLEND, PackedBlendPart, PackedMaterial, PackedParameter};
+use crate::packed::layers::PackedLayer;
+use crate::packed::material::{BLEND, LAYERED, PackedBlendPart, PackedMaterial, PackedParameter};
 use crate::packed::primitive::Primitive;
 use crate::packed::scene::PackedScene;
 use crate::packed::texture::{PackedTexture, PackedTextureKind};
@@ -25,6 +26,7 @@ pub enum Array {
     Materials,
     Parameters,
     BlendParts,
+    Layers,
     Weights,
     Lights,
     LightNodes,
@@ -32,7 +34,7 @@ pub enum Array {
 }
 
 impl Array {
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Primitives,
         Self::Attributes,
         Self::Nodes,
@@ -40,6 +42,7 @@ impl Array {
         Self::Materials,
         Self::Parameters,
         Self::BlendParts,
+        Self::Layers,
         Self::Weights,
         Self::Lights,
         Self::LightNodes,
@@ -56,6 +59,7 @@ impl Array {
             Self::Materials => &MATERIAL,
             Self::Parameters => &PARAMETER,
             Self::BlendParts => &BLEND_PART,
+            Self::Layers => &LAYER,
             Self::Weights => &WEIGHT,
             Self::Lights => &LIGHT,
             Self::LightNodes => &LIGHT_NODE,
@@ -73,6 +77,7 @@ impl Array {
             Self::Materials => size_of::<PackedMaterial>(),
             Self::Parameters => size_of::<PackedParameter>(),
             Self::BlendParts => size_of::<PackedBlendPart>(),
+            Self::Layers => size_of::<PackedLayer>(),
             Self::Weights => size_of::<PackedBlendWeight>(),
             Self::Lights => size_of::<PackedLight>(),
             Self::LightNodes => size_of::<LightNode>(),
@@ -91,6 +96,7 @@ impl Array {
             Self::Materials => bytemuck::cast_slice(&scene.materials.materials),
             Self::Parameters => bytemuck::cast_slice(&scene.materials.further),
             Self::BlendParts => bytemuck::cast_slice(&scene.materials.parts),
+            Self::Layers => bytemuck::cast_slice(&scene.materials.layers),
             Self::Weights => bytemuck::cast_slice(&scene.materials.weights),
             Self::Lights => bytemuck::cast_slice(&scene.lights),
             Self::LightNodes => bytemuck::cast_slice(&scene.light_nodes),
@@ -148,9 +154,9 @@ const INSTANCE: [(usize, Word); 3] = [
 
 const MATERIAL: [(usize, Word); 11] = [
     (word!(PackedMaterial, kind_and_form), Checked),
-    // The run of a blend's parts.
-    (word!(PackedMaterial, color1), CheckedIn(is_blend)),
-    (word!(PackedMaterial, color1) + 1, CheckedIn(is_blend)),
+    // The run of a blend's parts, or of a stack's layers.
+    (word!(PackedMaterial, color1), CheckedIn(has_run)),
+    (word!(PackedMaterial, color1) + 1, CheckedIn(has_run)),
     (word!(PackedMaterial, color1) + 2, CheckedIn(is_blend)),
     (word!(PackedMaterial, emission_flags), Checked),
     (word!(PackedMaterial, color0_texture), Optional(Array::Textures)),
@@ -167,6 +173,13 @@ const BLEND_PART: [(usize, Word); 3] = [
     (word!(PackedBlendPart, material), Index(Array::Materials)),
     (word!(PackedBlendPart, first_factor), Checked),
     (word!(PackedBlendPart, factor_count), Checked),
+];
+
+const LAYER: [(usize, Word); 4] = [
+    (word!(PackedLayer, interface), Index(Array::Materials)),
+    (word!(PackedLayer, slab_flags), Checked),
+    (word!(PackedLayer, thickness_texture), Optional(Array::Textures)),
+    (word!(PackedLayer, phase), CheckedIn(is_filled)),
 ];
 
 const WEIGHT: [(usize, Word); 2] =
@@ -195,6 +208,14 @@ const TEXTURE: [(usize, Word); 6] = [
     (word!(PackedTexture, first_value), CheckedIn(|texture| is_image(texture) && has_values(texture))),
     (word!(PackedTexture, times), Checked),
 ];
+
+fn is_filled(layer: &[u32]) -> bool {
+    layer[word!(PackedLayer, slab_flags)] != 0
+}
+
+fn has_run(material: &[u32]) -> bool {
+    [BLEND, LAYERED].contains(&(material[word!(PackedMaterial, kind_and_form)] & 255))
+}
 
 fn is_blend(material: &[u32]) -> bool {
     material[word!(PackedMaterial, kind_and_form)] & 255 == BLEND

@@ -36,6 +36,11 @@ impl Segment {
         at_interface || stack.slab(self.walker.gap).is_some_and(|slab| slab.breadth > self.walker.breadth)
     }
 
+    /// About how much it brings where it is joined.
+    fn carried(&self, stack: &Stack) -> f64 {
+        self.walker.weight.max_component() * self.walker.direction.dot(stack.up).abs().max(SMALLEST_COSINE)
+    }
+
     /// The share of light that is left after it, or after the part of it down to a depth; None where it does not come by there.
     fn left_at(&self, stack: &Stack, depth: Option<f64>) -> Option<Spectrum> {
         let Some(slab) = stack.slab(self.walker.gap) else { return Some(Spectrum::WHITE) };
@@ -109,7 +114,7 @@ impl Stack<'_> {
             if !is_first {
                 let segment = Segment::of(self, &walker);
                 if segment.can_be_joined(self) {
-                    let carried = walker.weight.max_component();
+                    let carried = segment.carried(self);
                     total += carried;
                     if stream.draw() * total < carried {
                         chosen = Some(segment);
@@ -117,7 +122,11 @@ impl Stack<'_> {
                 }
                 if walker.flies(self, stream) {
                     let Some(slab) = self.slab(walker.gap) else { break };
-                    if !walker.scatter_in(&slab, stream) {
+                    let cosine = walker.direction.dot(self.up).abs();
+                    let goes_on = walker.scatter_in(&slab, stream);
+                    // Depths were drawn along the way before; the sum over ways has them along the way from wo.
+                    walker.weight *= cosine / walker.direction.dot(self.up).abs().max(SMALLEST_COSINE);
+                    if !goes_on {
                         break;
                     }
                     continue;
@@ -134,8 +143,8 @@ impl Stack<'_> {
                 break;
             }
         }
-        if let Some(Segment { walker, .. }) = &mut chosen {
-            walker.weight *= total / walker.weight.max_component();
+        if let Some(segment) = &mut chosen {
+            segment.walker.weight *= total / segment.carried(self);
         }
         [Some(first), chosen]
     }

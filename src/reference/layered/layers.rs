@@ -8,6 +8,8 @@ pub struct Layer {
     pub flat: FlatLayer,
     /// None where the slab takes and scatters nothing.
     pub filling: Option<Filling>,
+    /// A coat of the interface lies about another normal than the base below it.
+    pub coat_differs: bool,
 }
 
 /// The layers of a material from the front to the back, and how they are seen.
@@ -48,7 +50,11 @@ impl LayersOfMaterial {
         let flat = scene.flat_layers(material).ok()??;
         let most_breadth = flat.iter().flat_map(|layer| [layer.breadth, layer.slab_breadth]).fold(0.0, f64::max);
         let filling = |layer: &FlatLayer| layer.slab.medium.map(|id| Filling::of(&scene.media[id])).filter(|filling| !filling.is_clear());
-        let layers: Vec<Layer> = flat.iter().map(|&flat| Layer { flat, filling: filling(&flat) }).collect();
+        let coats_differ = scene.coat_normals_differ();
+        let layers: Vec<Layer> = flat
+            .iter()
+            .map(|&flat| Layer { flat, filling: filling(&flat), coat_differs: coats_differ[flat.interface] })
+            .collect();
         let scatters = layers.iter().filter_map(|layer| layer.filling.as_ref()).any(Filling::scatters);
         Some(Self { layers, model: kind.model, mirrored: kind.mirrored, most_breadth, scatters })
     }

@@ -72,7 +72,7 @@ impl<'a> Stack<'a> {
         surface.owner.material = material;
         surface.point.normal = self.up;
         surface.shading_normal = self.normal_of(number);
-        surface.coat_normal = surface.coat_normal.map(|_| self.up);
+        surface.coat_normal = self.layers.layers[number].coat_differs.then_some(self.up);
         surface.unperturbed_normal = None;
         surface.is_mirrored = false;
         surface.by_camera = false;

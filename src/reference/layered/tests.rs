@@ -241,7 +241,7 @@ fn nothing_is_lost_between_layers() {
         let probe = Probe::new(keys);
         for degrees in [0.0, 45.0, 80.0, 89.0] {
             // Channels that differ make noise.
-            let count = if keys.contains("milk") { 600_000 } else { 60_000 };
+            let count = if keys.contains("milk") { 1_200_000 } else { 60_000 };
             let walks = probe.walks(at(degrees, 0.1), count);
             let all = walks[0].value() + walks[1].value();
             let error = walks[0].error().max_component() + walks[1].error().max_component();

@@ -14,8 +14,8 @@ use crate::spectrum::Spectrum;
 
 /// Events after which chance may end a way, and after which it does so at least now and then.
 const FIRST_ROULETTE: u32 = 4;
-const CERTAIN_ROULETTE: u32 = 64;
-const MOST_SURVIVAL: f64 = 0.9;
+const CERTAIN_ROULETTE: u32 = 1024;
+const MOST_SURVIVAL: f64 = 0.99;
 
 /// Light on its way through a stack.
 #[derive(Debug, Clone, Copy)]

@@ -114,6 +114,7 @@ impl Material {
         let weight = matches!(&self.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());
         let of_lobe = self.kind.lobe().is_some_and(|lobe| lobe.inputs().any(|(_, input)| input.is_texture()));
         let of_emission = self.emission.is_some_and(|emission| emission.radiance.is_texture());
-        weight || of_lobe || of_emission || self.normal_map.is_some()
+        let of_layers = matches!(&self.kind, MaterialKind::Layered(layers) if layers.slabs.iter().any(|slab| slab.thickness.is_texture()));
+        weight || of_lobe || of_emission || of_layers || self.normal_map.is_some()
     }
 }
