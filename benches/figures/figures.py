@@ -108,6 +108,70 @@ def lenses():
     table("lenses", ["sampler, lens included", "16 spp", "64 spp"], rows)
 
 
+PAINTS = ("glossy paint", "frosted paint", "foil", "car paint", "wall paint")
+PAINTS_FROM_AFAR = "position = [0, 1.5, 7]\nlook_at  = [0, 0.5, 0]\nvfov     = 17"
+# What each paint is replaced by: blends of what its layers are made of, weighed by how much the top lets through.
+TOP = 'weight = { type = "fresnel", ior = %s, exact = true }'
+GLOSS = '[[material]]\nname = "gloss"\ntype = "conductor"\nreflectance = 1\nalpha = %s\n\n'
+MIXED = '[[material]]\nname = "mixed"\ntype = "blend"\nmaterials = ["%s", "%s"]\nweight = %s\n\n'
+IMITATIONS = {
+    "glossy paint": ('type = "layered"\ninterfaces = ["varnish", "red"]', 'type = "blend"\nmaterials = ["red", "gloss"]\n' + TOP % 1.5, GLOSS % 0),
+    "frosted paint": (
+        'type = "layered"\ninterfaces = ["frost", "red"]\nslabs = [{ thickness = 0.1, medium = "haze" }]',
+        'type = "blend"\nmaterials = ["red", "gloss"]\n' + TOP % 1.5,
+        GLOSS % 0.35,
+    ),
+    "foil": (
+        'type = "layered"\ninterfaces = ["film", "copper"]',
+        'type = "blend"\nmaterials = ["copper", "gloss"]\n' + TOP % 1.45,
+        GLOSS % 0.06,
+    ),
+    "car paint": (
+        'type = "layered"\ninterfaces = ["varnish", "flakes"]\nslabs = [{ thickness = 0.25, medium = "blue" }]',
+        'type = "blend"\nmaterials = ["mixed", "gloss"]\n' + TOP % 1.5,
+        GLOSS % 0
+        + '[[material]]\nname = "blue"\ntype = "diffuse"\nreflectance = [0.02, 0.1, 0.35]\n\n'
+        + '[[material]]\nname = "blue flakes"\ntype = "conductor"\nreflectance = [0.1, 0.4, 0.85]\nalpha = 0.4\n\n'
+        + MIXED % ("blue flakes", "blue", '{ type = "constant", value = 0.7 }'),
+    ),
+    "wall paint": (
+        'type = "layered"\ninterfaces = ["binder", "binder", "plaster"]\n'
+        'slabs = [{ thickness = { texture = "worn", factor = 0.4 }, medium = "white" }, { thickness = 0.3, medium = "green" }]',
+        'type = "blend"\nmaterials = ["mixed", "gloss"]\n' + TOP % 1.33,
+        GLOSS % 0.5
+        + '[[material]]\nname = "white"\ntype = "diffuse"\nreflectance = 0.8\n\n'
+        + '[[material]]\nname = "green"\ntype = "diffuse"\nreflectance = [0.1, 0.55, 0.15]\n\n'
+        + MIXED % ("white", "green", '{ type = "texture", texture = "worn" }'),
+    ),
+}
+
+
+def layers():
+    """Paints of real layers, their imitations by blends, and Weidlich and Wilkie's approximation."""
+    rows = []
+    everything = {}
+    for place, paint in enumerate(PAINTS):
+        x = 0.95 * (place - 2)
+        close = {PAINTS_FROM_AFAR: f"position = [{x}, 0.9, 4]\nlook_at  = [{x}, 0.43, 0]\nvfov     = 14"}
+        named = f'[[material]]\nname = "{paint}"\n'
+        old, new, more = IMITATIONS[paint]
+        blended = {named + old: (more + named).replace('"mixed"', f'"mixed {place}"').replace('"gloss"', f'"gloss {place}"') + new}
+        blended = {key: value.replace('["mixed"', f'["mixed {place}"').replace('"gloss"]', f'"gloss {place}"]') for key, value in blended.items()}
+        straight = {named + old: f'{named}{old}\nmodel = "weidlich-wilkie"'}
+        everything |= blended
+        real = Way("layers", [], close)
+        ways = [real, Way("blend", [], close | blended), Way("Weidlich and Wilkie", [], close | straight)]
+        figure = f"layers, {paint}"
+        truths = references("paints", real, 2048)
+        spent = seconds(figure, "paints", ways, 64)
+        errors = [error(figure, "paints", way, 1024, truths)[1] for way in ways[1:]]
+        noise = [error(figure, "paints", way, 16, truths)[1] for way in ways[:1]]
+        ratio = [spent[way.name] / spent["layers"] for way in ways[1:]]
+        rows.append([paint, f"{noise[0]:.2e}", *(f"{wrong:.2e}, {share:.2f}" for wrong, share in zip(errors, ratio))])
+    table("layers", ["paint", "noise of layers at 16 spp", "blend: error, seconds", "Weidlich and Wilkie: error, seconds"], rows)
+    montage("layers.jpg", 1, [("paints", Way("layers"), 1024), ("paints", Way("blends", [], everything), 1024)])
+
+
 def motion():
     """Motion blur in different directions, and of turns."""
     left, right = "motion    = [{ translate = [0.4, 0, 0] }]", "motion    = [{ translate = [0, 0.4, 0] }]"
@@ -191,7 +255,7 @@ def smoke():
 
 FIGURES = {
     figure.__name__: figure
-    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, extensions, integrals, importance, roulette, fog, smoke, samplers)
+    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers)
 }
 
 

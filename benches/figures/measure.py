@@ -41,7 +41,7 @@ class Way:
 
 
 def scene_path(scene, edits):
-    """The scene as a file; with edits, a copy. Only scenes that name no other files are edited."""
+    """The scene as a file; with edits, a copy, which names pictures by their whole paths."""
     path = SCENES / f"{scene}.toml"
     if not path.exists():
         path = ROOT / "scenes" / f"{scene}.toml"
@@ -52,6 +52,7 @@ def scene_path(scene, edits):
         if text.count(old) != 1:
             raise ValueError(f"{path} holds {old!r} {text.count(old)} times, not once")
         text = text.replace(old, new)
+    text = text.replace('"textures/', f'"{ROOT}/scenes/textures/')
     edited = FOLDER / f"{scene}-{abs(hash(text))}.toml"
     edited.write_text(text, encoding="utf-8")
     return edited

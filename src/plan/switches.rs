@@ -3,8 +3,8 @@
 use super::choices::{FilmStorage, MAX_SAMPLES_PER_PASS};
 use super::model::{Plan, SEQUENCE_BLOCKS};
 use crate::packed::hierarchy::Traversal;
-use crate::packed::light::{LightKind, PackedLight};
 use crate::packed::layers::PackedLayer;
+use crate::packed::light::{LightKind, PackedLight};
 use crate::packed::material::{BLEND, LAYERED, NO_LOBE, PackedMaterial};
 use crate::packed::primitive::Primitive;
 use crate::packed::shape::{PrimitiveKind, SurfaceSampling};

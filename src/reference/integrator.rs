@@ -172,7 +172,8 @@ impl Integrator {
         let u_blend = visitor.round_number(random(VertexDimension::Blend));
         let bsdf = Bsdf::new(&self.scene, &surface, wo, u_blend);
         visitor.view(&bsdf.view);
-        let [key, other] = [VertexDimension::Blend, VertexDimension::Lobe].map(|dimension| sampler.bits(Dimension::vertex(vertex, dimension)));
+        let [key, other] =
+            [VertexDimension::Blend, VertexDimension::Lobe].map(|dimension| sampler.bits(Dimension::vertex(vertex, dimension)));
         let (layers, key) = ((&self.scene, &self.layers), mix(key ^ mix(other)));
         let scatterer = SurfaceScatterer::new(layers, self.guide(), (&surface, &bsdf), u_blend, key);
         let scatterer = Scatterer::Surface(scatterer);

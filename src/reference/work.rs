@@ -12,6 +12,8 @@ pub const SECOND: u64 = 1 << 26;
 pub const TRANSLUCENT_SURFACE: u64 = 16;
 /// A part of a blend, or one of several lobes.
 pub const PART: u64 = 8;
+/// An event on a way through a stack of layers.
+pub const LAYER_EVENT: u64 = 32;
 thread_local! {
     static DONE: Cell<u64> = const { Cell::new(0) };
 }

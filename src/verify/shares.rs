@@ -54,6 +54,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("grove", MeasuredShare { matching: 163_684, paths: 163_840 }),
     ("wardrobe", MeasuredShare { matching: 175_075, paths: 176_128 }),
     ("workshop", MeasuredShare { matching: 167_001, paths: 167_936 }),
+    ("paints", MeasuredShare { matching: 110_510, paths: 110_592 }),
     ("vitrine", MeasuredShare { matching: 175_226, paths: 176_128 }),
     ("mist", MeasuredShare { matching: 175_652, paths: 176_128 }),
     ("bonfire", MeasuredShare { matching: 196_465, paths: 196_608 }),

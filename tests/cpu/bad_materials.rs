@@ -64,6 +64,42 @@ fn blend(weight: &str) -> String {
     material(&format!("type = \"blend\"\nmaterials = [\"white\", \"mirror\"]\nweight = {weight}"))
 }
 
+/// Stacks that cannot be.
+#[test]
+fn layers_that_do_not_go_together_are_refused() {
+    let others = "[[medium]]\nname = \"glow\"\nemission = 1\n[[material]]\nname = \"coat\"\ntype = \"glass\"\n\
+                  [[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = 1\n\
+                  [[material]]\nname = \"within\"\ntype = \"layered\"\ninterfaces = [\"m\"]\n\
+                  [[material]]\nname = \"stack\"\ntype = \"layered\"\ninterfaces = [\"coat\", \"white\"]\n\
+                  [[material]]\nname = \"half a stack\"\ntype = \"blend\"\nmaterials = [\"stack\", \"white\"]\nweight = { type = \"constant\", value = 0.5 }\n\
+                  [[material]]\nname = \"by angle\"\ntype = \"blend\"\nmaterials = [\"coat\", \"mirror\"]\nweight = { type = \"facing\", power = 1 }\n\
+                  [[material]]\nname = \"body\"\ntype = \"principled\"\ntransmission = 1\nattenuation_color = 0.5\nattenuation_distance = 1\n";
+    let layered = |keys: &str| format!("{}{others}", material(&format!("type = \"layered\"\n{keys}")));
+    let rows = [
+        ("interfaces = []", "`interfaces` names no material"),
+        ("interfaces = [\"coat\", \"wite\"]", "there is no material named `wite`"),
+        ("interfaces = [\"coat\", \"white\"]\nslabs = []", "between 2 interfaces are 1 slabs, and 0 are written"),
+        ("interfaces = [\"coat\", \"white\"]\nslabs = [{ thickness = -1 }]", "thickness: expected"),
+        ("interfaces = [\"coat\", \"white\"]\nslabs = [{ medium = \"glow\" }]", "the medium of a slab needs a `thickness`"),
+        ("interfaces = [\"coat\", \"white\"]\nslabs = [{ thickness = 1, medium = \"fog\" }]", "there is no medium named `fog`"),
+        (
+            "interfaces = [\"coat\", \"white\"]\nslabs = [{ thickness = 1, medium = \"glow\" }]",
+            "must be the same everywhere, and give off no light",
+        ),
+        ("interfaces = [\"coat\", \"white\"]\nmodel = \"fourier\"", "model: `fourier` is not a valid choice"),
+        ("interfaces = [\"coat\", \"lamp\"]", "the interface `lamp` gives off light"),
+        ("interfaces = [\"coat\", \"within\"]", "has more than 64 interfaces"),
+        ("interfaces = [\"coat\", \"half a stack\"]", "the interface `half a stack` blends the stack `stack`"),
+        ("interfaces = [\"by angle\", \"white\"]", "is blended by the direction that it is seen from"),
+        ("interfaces = [\"coat\", \"body\"]", "has a medium of its own"),
+    ];
+    for (keys, message) in rows {
+        let found = complaint(&layered(keys));
+        assert!(found.contains(message), "{keys}: {found}");
+    }
+    assert!(load(&layered("interfaces = [\"coat\", \"stack\"]")).is_ok(), "a stack may be an interface");
+}
+
 /// Keys that exclude each other, or need each other.
 #[test]
 fn keys_of_rough_surfaces_that_do_not_go_together_are_refused() {

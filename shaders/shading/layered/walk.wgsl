@@ -129,15 +129,15 @@ fn walk_through(
                 if walk == DRAW && is_first {
                     numbers = first;
                 }
-                let from = -walker.direction;
+                let arrives = -walker.direction;
                 let breadth = layer_interface(stack, number).breadth;
-                let seen = interface_surface(stack, surface, number, from, walker.weight);
-                let bsdf = load_bsdf(seen, from, blend_number);
+                let seen = interface_surface(stack, surface, number, arrives, walker.weight);
+                let bsdf = load_bsdf(seen, arrives, blend_number);
 #if MORE_LOBES
-                let directed = draw_direction(bsdf, seen, from, numbers.x, numbers.y, numbers.z);
+                let directed = draw_direction(bsdf, seen, arrives, numbers.x, numbers.y, numbers.z);
                 var drawn = directed.chosen;
 #else
-                var drawn = sample_bsdf(bsdf, seen, from, numbers.x, numbers.y, numbers.z);
+                var drawn = sample_bsdf(bsdf, seen, arrives, numbers.x, numbers.y, numbers.z);
 #endif
                 var turned = BLACK;
                 // The interface towards both pieces, along the drawn direction, and as light sees it that comes from there.
@@ -147,7 +147,7 @@ fn walk_through(
                         piece = chosen;
                     }
                     var wanted = walk == ESTIMATE && piece.exists && piece.ahead == number && piece.walker.breadth < breadth && walker.breadth <= breadth;
-                    var view_wo = from;
+                    var view_wo = arrives;
                     var wi = -piece.walker.direction;
                     if request == 2u {
                         wanted = false;
@@ -159,7 +159,7 @@ fn walk_through(
                     if request == 3u {
                         wanted = walk == FROM_LIGHT && drawn.pdf_solid_angle > 0.0 && max_component(drawn.weight) > 0.0;
                         view_wo = drawn.wi;
-                        wi = from;
+                        wi = arrives;
                     }
                     if !wanted {
                         continue;
@@ -188,7 +188,7 @@ fn walk_through(
                             turned = drawn.weight;
                         } else if drawn.pdf_solid_angle < 0.0 {
                             // Smooth surfaces are reciprocal but for the squared ratio of indices of refraction by which radiance scales.
-                            let cosines = abs(dot(from, seen.shading_normal)) / max(abs(dot(drawn.wi, seen.shading_normal)), SMALLEST_LAYER_COSINE);
+                            let cosines = abs(dot(arrives, seen.shading_normal)) / max(abs(dot(drawn.wi, seen.shading_normal)), SMALLEST_LAYER_COSINE);
                             turned = drawn.weight * (cosines * drawn.eta_scale);
                         }
                         walker.weight *= turned;

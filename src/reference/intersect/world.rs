@@ -115,7 +115,8 @@ impl World {
         let Collected { infinite, shapes, portals, .. } = collected;
         let normal_maps = NormalMaps::new(scene);
         let uses_tangents = scene.materials_that(|material| material.is_anisotropic() || material.has_coat_normal_map());
-        let uses_tangents: Vec<bool> = uses_tangents.into_iter().zip(scene.layers_are_bent()).map(|(uses, bent)| uses || bent).collect();
+        let uses_tangents: Vec<bool> =
+            uses_tangents.into_iter().zip(scene.layers_are_bent()).map(|(uses, bent)| uses || bent).collect();
         let coat_normals_differ = scene.coat_normals_differ();
         Ok(Self {
             hierarchy,

@@ -10,8 +10,8 @@ use glam::DVec3;
 
 use super::stack::{SMALLEST_COSINE, Stack};
 use crate::math::dielectric_reflectance;
-use crate::reference::bsdf::{BsdfSample, Density, Evaluation};
 use crate::reference::bsdf::refract;
+use crate::reference::bsdf::{BsdfSample, Density, Evaluation};
 use crate::reference::medium::left;
 use crate::spectrum::Spectrum;
 
@@ -81,7 +81,9 @@ impl Stack<'_> {
             let arriving = if same_side {
                 to
             } else {
-                self.order(wi).take_while(|&other| other != interface).try_fold(Beam::new(wi), |beam, other| beam.through(self, other))
+                self.order(wi)
+                    .take_while(|&other| other != interface)
+                    .try_fold(Beam::new(wi), |beam, other| beam.through(self, other))
             };
             if let Some(arriving) = arriving {
                 let bsdf = self.interface(interface, beam.direction, Spectrum::WHITE, MIDDLE);

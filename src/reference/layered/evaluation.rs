@@ -183,7 +183,13 @@ impl Stack<'_> {
             }
             let Some(interface) = self.ahead(walker.gap, walker.direction) else {
                 let density = if walker.breadth == 0.0 { Density::Delta } else { Density::SolidAngle(0.0) };
-                return Some(BsdfSample { wi: walker.direction, weight: walker.weight, density, eta: walker.eta, is_null: false });
+                return Some(BsdfSample {
+                    wi: walker.direction,
+                    weight: walker.weight,
+                    density,
+                    eta: walker.eta,
+                    is_null: false,
+                });
             };
             let numbers = [stream.draw(), stream.draw(), stream.draw(), stream.draw()];
             let bsdf = self.interface(interface, -walker.direction, walker.weight, numbers[0]);

@@ -49,7 +49,8 @@ impl LayersOfMaterial {
         // A checked scene has no stack that is too high.
         let flat = scene.flat_layers(material).ok()??;
         let most_breadth = flat.iter().flat_map(|layer| [layer.breadth, layer.slab_breadth]).fold(0.0, f64::max);
-        let filling = |layer: &FlatLayer| layer.slab.medium.map(|id| Filling::of(&scene.media[id])).filter(|filling| !filling.is_clear());
+        let filling =
+            |layer: &FlatLayer| layer.slab.medium.map(|id| Filling::of(&scene.media[id])).filter(|filling| !filling.is_clear());
         let coats_differ = scene.coat_normals_differ();
         let layers: Vec<Layer> = flat
             .iter()

@@ -9,6 +9,7 @@ use crate::reference::intersect::Ray;
 use crate::reference::medium::left;
 use crate::reference::phase::Scattering;
 use crate::reference::tracking::Stream;
+use crate::reference::work;
 use crate::scene::DistanceSampling;
 use crate::spectrum::Spectrum;
 
@@ -88,6 +89,7 @@ impl Walker {
     /// Russian roulette by what the way still carries.
     fn survives(&mut self, stream: &mut Stream) -> bool {
         self.events += 1;
+        work::add(work::LAYER_EVENT);
         let carried = self.weight.max_component() * self.eta * self.eta;
         if self.events < FIRST_ROULETTE || carried <= 0.0 {
             return carried > 0.0;

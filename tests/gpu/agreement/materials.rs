@@ -159,6 +159,22 @@ const LOBES: &[(&str, &str)] = &[
         "bumpy smooth coat over bumps",
         "type = \"principled\"\nmetallic = 0\nroughness = 0.6\ntransmission = 0.5\nnormal_map = \"bumps\"\nclearcoat = 1\ncoat_normal_map = \"bumps\"\ncoat_normal_scale = -1.5\nopacity = 0.8",
     ),
+    (
+        "layers in a blend",
+        "type = \"blend\"\nmaterials = [\"stacked\", \"red\"]\nweight = { type = \"facing\", power = 1 }\n\
+         [[material]]\nname = \"stacked\"\ntype = \"layered\"\ninterfaces = [\"frost\", \"mirror\"]\nslabs = [{ thickness = 0.1, medium = \"pigment\" }]",
+    ),
+    (
+        "layers of layers",
+        "type = \"layered\"\ninterfaces = [\"varnish\", \"inner\"]\n\
+         [[material]]\nname = \"inner\"\ntype = \"layered\"\ninterfaces = [\"frost\", \"half mirror\"]\nslabs = [{ thickness = { texture = \"clouds\" }, medium = \"pigment\" }]\n\
+         [[material]]\nname = \"half mirror\"\ntype = \"blend\"\nmaterials = [\"red\", \"mirror\"]\nweight = { type = \"fresnel\", ior = 1.4 }",
+    ),
+    (
+        "a coat over glTF's material",
+        "type = \"layered\"\ninterfaces = [\"varnish\", \"worn\"]\n\
+         [[material]]\nname = \"worn\"\ntype = \"principled\"\nmetallic = 0.4\nroughness = { texture = \"clouds\" }\nclearcoat = 0.5\nnormal_map = \"bumps\"",
+    ),
     ("normal map", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\""),
     ("normal map of a mirror", "type = \"mirror\"\nnormal_map = \"bumps\""),
     ("textured exponent", "type = \"glossy\"\nreflectance = 0.8\nexponent = { texture = \"cells\" }"),
@@ -180,6 +196,11 @@ const RELIEFS: &[(&str, &str)] = &[
     (
         "mirrored normals",
         "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
+    ),
+    (
+        "layers with a map of their own",
+        "type = \"layered\"\ninterfaces = [\"bent frost\", \"red\"]\nslabs = [{ thickness = 0.2, medium = \"pigment\" }]\n\
+         [[material]]\nname = \"bent frost\"\ntype = \"rough_glass\"\nalpha = 0.2\nnormal_map = \"bumps\"",
     ),
     ("strong normals", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 2.5"),
 ];

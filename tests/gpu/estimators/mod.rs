@@ -108,6 +108,13 @@ fn estimators_agree_where_they_once_did_not() {
 }
 
 #[test]
+fn estimators_agree_on_stacks_of_layers() {
+    let scenes: Vec<_> = scenes::stacks().map(|(name, features)| (name.to_owned(), features)).collect();
+    let found = disagreements(&scenes);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
 fn estimators_agree_on_features_at_random() {
     let count = if in_full("estimators on 60 scenes at random instead of 3") { 60 } else { 3 };
     let scenes: Vec<_> = (0..count).map(|number| (format!("scene {number}"), Features::at_random(number))).collect();

@@ -49,6 +49,30 @@ const BODIES: &[&str] = &[
     "type = \"principled\", base_color = 0.9, metallic = 0, roughness = 0.6, transmission = 0.7, thin = true",
     "type = \"rough_glass\", ior = 1.3, alpha = 0.4",
     "type = \"mirror\"",
+    STACKS[0].1,
+    STACKS[1].1,
+];
+
+/// Bodies of real layers.
+pub const STACKS: &[(&str, &str)] = &[
+    (
+        "paint below frosted glass",
+        "type = \"layered\", interfaces = [\"frosted\", \"paint\"], slabs = [{ thickness = 0.2, medium = \"haze\" }]",
+    ),
+    (
+        "a translucent sheet",
+        "type = \"layered\", interfaces = [\"frosted\", \"frosted\"], slabs = [{ thickness = { texture = \"hills\" }, medium = \"haze\" }]",
+    ),
+    (
+        "metal below varnish and haze",
+        "type = \"layered\", interfaces = [\"varnish\", \"metal\"], slabs = [{ thickness = 0.5, medium = \"haze\" }], mirrored = true",
+    ),
+    ("metal below a film", "type = \"layered\", interfaces = [\"frosted\", \"varnish\", \"metal\"]"),
+    (
+        "two stacks and paint",
+        "type = \"blend\", materials = [\"coated\", \"half coated\"], weight = { type = \"facing\", power = 1 }",
+    ),
+    ("Weidlich and Wilkie's", "type = \"layered\", interfaces = [\"frosted\", \"metal\"], model = \"weidlich-wilkie\""),
 ];
 const WHOLE: &str = "";
 const OPACITIES: &[&str] = &[
@@ -89,6 +113,27 @@ const SETTINGS: &[&str] = &[
     "light_choice = \"power\", light_samples = 3, blend = \"pick\"",
     "light_choice = \"power\", light_sampling = \"area\"",
 ];
+
+/// Each of the stacks on a body, in turn under a lamp and under the sky.
+pub fn stacks() -> impl Iterator<Item = (&'static str, Features)> {
+    let plain = Features {
+        body: BODIES[0],
+        opacity: WHOLE,
+        relief: FLAT,
+        sides: SIDES[0],
+        glow: GLOWS[0],
+        shape: Shape::Box,
+        motion: MOTIONS[0],
+        lamp: LAMPS[0],
+        lamp_shape: LAMP_SHAPES[1],
+        settings: SETTINGS[0],
+    };
+    STACKS.iter().enumerate().map(move |(place, &(name, body))| {
+        let lamp_shape = if place % 2 == 0 { plain.lamp_shape } else { SKY };
+        let settings = SETTINGS[if place == 3 { 3 } else { 0 }];
+        (name, Features { body, lamp_shape, settings, ..plain })
+    })
+}
 
 /// Bodies and lamps that once were wrong, each in its own way.
 pub fn remembered() -> [(&'static str, Features); 5] {
@@ -199,9 +244,17 @@ texture = [
   {{ name = "squares", type = "checker", a = [1, 0.9, 0], b = [0, 0.3, 0.5], scale = [4, 3] }},
   {{ name = "hills", type = "perlin", scale = 5, a = 0, b = 1 }},
 ]
+medium = [{{ name = "haze", scattering = [3, 2, 1], absorption = [0.2, 0.5, 1], phase = {{ type = "henyey_greenstein", g = 0.4 }} }}]
 material = [
   {{ name = "floor", type = "diffuse", reflectance = 0.6 }},
   {{ name = "lamp", {lamp} }},
+  {{ name = "frosted", type = "rough_glass", ior = 1.4, alpha = 0.3 }},
+  {{ name = "varnish", type = "glass", ior = 1.5 }},
+  {{ name = "metal", type = "conductor", preset = "copper", alpha = 0.35 }},
+  {{ name = "paint", type = "diffuse", reflectance = [0.7, 0.3, 0.2] }},
+  {{ name = "coated", type = "layered", interfaces = ["frosted", "paint"] }},
+  {{ name = "half coated", type = "blend", materials = ["paint", "also coated"], weight = {{ type = "constant", value = 0.4 }} }},
+  {{ name = "also coated", type = "layered", interfaces = ["varnish", "metal"] }},
   {{ name = "body", {body}{opacity}{relief}{sides}{glow} }},
 ]
 shape = [

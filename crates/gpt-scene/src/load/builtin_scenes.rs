@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use super::examples;
 
 /// Name and text of every built-in scene that is a file; the first is the default.
-const SCENES: [(&str, &str); 34] = [
+const SCENES: [(&str, &str); 35] = [
     ("cornell", include_str!("../../../../scenes/cornell.toml")),
     ("spheres", include_str!("../../../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../../../scenes/veach-mis.toml")),
@@ -27,6 +27,7 @@ const SCENES: [(&str, &str); 34] = [
     ("bazaar", include_str!("../../../../scenes/bazaar.toml")),
     ("arbour", include_str!("../../../../scenes/arbour.toml")),
     ("vitrine", include_str!("../../../../scenes/vitrine.toml")),
+    ("paints", include_str!("../../../../scenes/paints.toml")),
     ("wardrobe", include_str!("../../../../scenes/wardrobe.toml")),
     ("workshop", include_str!("../../../../scenes/workshop.toml")),
     ("grove", include_str!("../../../../scenes/grove.toml")),

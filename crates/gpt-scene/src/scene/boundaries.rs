@@ -1,5 +1,6 @@
 //! Media whose boundaries cannot be what was meant.
 
+use super::material::Material;
 use super::medium::MediumId;
 use super::model::Scene;
 use super::shape::{Geometry, Shape};
@@ -14,11 +15,12 @@ impl Scene {
         let inside: Vec<Option<MediumId>> = self.with_that_of_parts(own, |_| true);
         let shapes: Vec<&Shape> = self.shapes.iter().chain(self.groups.iter().flat_map(|group| &group.shapes)).collect();
         let bounds = |shape: &Shape, medium: MediumId| shape.materials().any(|material| inside[material] == Some(medium));
+        let in_slabs: Vec<MediumId> = self.materials.iter().flat_map(Material::media_of_slabs).collect();
         let mut warnings = Vec::new();
         for (id, medium) in self.media.iter().enumerate() {
             let boundary: Vec<&Shape> = shapes.iter().copied().filter(|shape| bounds(shape, id)).collect();
-            if boundary.is_empty() && self.camera_medium != Some(id) {
-                let what = "no shape has a material whose `interior` it is, and the camera is not within it";
+            if boundary.is_empty() && self.camera_medium != Some(id) && !in_slabs.contains(&id) {
+                let what = "no shape has a material whose `interior` or slab it is, and the camera is not within it";
                 warnings.push(format!("the medium `{}` is nowhere: {what}", medium.name));
             }
             // Several open shapes may close each other.

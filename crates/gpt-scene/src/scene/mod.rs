@@ -49,9 +49,9 @@ pub use light::{
     OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
 pub use material::{
-    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, FlatLayer, LayerModel, Layers, LobeKind, LobeParameters, LobeSupport,
-    Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled, Slab, Subsurface,
-    ThinFilm,
+    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, FlatLayer, LayerModel, Layers, LobeKind,
+    LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets,
+    PlasticInterface, Principled, Slab, Subsurface, ThinFilm,
 };
 pub use media::{Filling, Media};
 pub use medium::{Medium, MediumId, Phase, PhaseKind, PhaseLobe};

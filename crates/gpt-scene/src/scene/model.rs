@@ -175,7 +175,7 @@ impl Scene {
     }
 
     /// True if the material or one of those it blends, at any depth, is as `wanted`.
-    fn any_part(&self, material: MaterialId, wanted: &dyn Fn(&Material) -> bool) -> bool {
+    pub(super) fn any_part(&self, material: MaterialId, wanted: &dyn Fn(&Material) -> bool) -> bool {
         let mut seen = vec![false; self.materials.len()];
         let mut to_visit = vec![material];
         while let Some(id) = to_visit.pop() {

@@ -12,7 +12,7 @@ use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{BlendWeight, Layers, Material, MaterialId, MaterialKind, ParameterType, Subsurface};
 use super::medium::MediumId;
 use super::model::Scene;
-use super::settings::BadSetting;
+use super::settings::{BadSetting, BlendMode};
 use super::shape::{Geometry, Shape};
 use super::texture::{ChannelInput, ColorInput, Relief, Texture, TextureId, TextureKind, UvTransform};
 use crate::spectrum::Spectrum;
@@ -154,7 +154,12 @@ impl Scene {
                 return Err(format!("the medium `{}` of a slab must be the same everywhere, and give off no light", medium.name));
             }
         }
-        layers.interfaces.iter().try_for_each(|&id| self.check_interface(id))
+        layers.interfaces.iter().try_for_each(|&id| self.check_interface(id))?;
+        let is_by_direction = |&id: &MaterialId| self.is_blended_by_direction(id);
+        if self.render.blend == BlendMode::Pick && layers.interfaces.iter().any(is_by_direction) {
+            return Err("with `blend = \"pick\"` no interface may be blended by the direction that it is seen from".into());
+        }
+        Ok(())
     }
 
     fn weight(&self, mut weight: &BlendWeight) -> Check {

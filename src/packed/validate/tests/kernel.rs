@@ -7,7 +7,7 @@ use std::collections::HashSet;
 use crate::packed::environment::PackedMap;
 use crate::packed::hierarchy::Traversal;
 use crate::packed::light::LightKind;
-use crate::packed::material::BLEND;
+use crate::packed::material::{BLEND, LAYERED};
 use crate::packed::tables::Tables;
 use crate::packed::{NONE, PackedScene};
 use crate::scene::LobeKind;
@@ -217,6 +217,9 @@ impl Kernel<'_> {
             self.texture(words[4][1])?;
         }
         self.emission(material)?;
+        if words[0][3] & 255 == LAYERED {
+            self.layers(words[1][0], words[1][1] & 0xffff)?;
+        }
         let parts_emit = words[2][3] & 4 != 0;
         let (run, count) = if is_blend { (words[1][0], words[1][1]) } else { (NONE, 1) };
         let behind = if parts_emit { words[1][2] } else { 0 };
@@ -238,6 +241,26 @@ impl Kernel<'_> {
                 self.load(part[0])?;
             }
             index += 1;
+        }
+        Ok(())
+    }
+
+    /// shading/layered/stack.wgsl
+    fn layers(&self, first: u32, count: u32) -> Read<()> {
+        for layer in 0..count {
+            let start = self.tables.first_layer.wrapping_add(first.wrapping_add(layer).wrapping_mul(4));
+            let words = (0..4).map(|word| self.table(start.wrapping_add(word))).collect::<Read<Vec<_>>>()?;
+            self.material(words[0][0])?;
+            let [flags, texture, phase] = [words[0][3], words[3][0], words[3][1]];
+            if flags != 0 {
+                if texture != NONE {
+                    self.texture(texture)?;
+                }
+                let lobes = (phase & 0x7fff_ffff) >> 20;
+                for lobe in 0..lobes {
+                    self.table(self.tables.first_phase.wrapping_add(phase & 0x000f_ffff).wrapping_add(lobe))?;
+                }
+            }
         }
         Ok(())
     }

@@ -25,6 +25,7 @@ fn words_mut(scene: &mut PackedScene, array: Array) -> &mut [u32] {
         Array::Materials => bytemuck::cast_slice_mut(&mut scene.materials.materials),
         Array::Parameters => bytemuck::cast_slice_mut(&mut scene.materials.further),
         Array::BlendParts => bytemuck::cast_slice_mut(&mut scene.materials.parts),
+        Array::Layers => bytemuck::cast_slice_mut(&mut scene.materials.layers),
         Array::Weights => bytemuck::cast_slice_mut(&mut scene.materials.weights),
         Array::Lights => bytemuck::cast_slice_mut(&mut scene.lights),
         Array::LightNodes => bytemuck::cast_slice_mut(&mut scene.light_nodes),

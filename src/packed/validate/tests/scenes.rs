@@ -12,9 +12,10 @@ use crate::packed::light::LightKind;
 use crate::sampling::light_cells::table;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
-    EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, Light, LightChoice, Masking, Material,
-    MaterialKind, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, ProjectedTexture,
-    Rectangle, Scene, Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, Transform,
+    EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, LayerModel, Layers, Light, LightChoice, Masking,
+    Material, MaterialKind, Medium, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Phase, Plane,
+    PlasticInterface, ProjectedTexture, Rectangle, Scene, Shape, Slab, Sphere, Texels, Texture, TextureFilter, TextureKind,
+    TextureWrap, Transform,
 };
 use crate::spectrum::Spectrum;
 
@@ -149,6 +150,16 @@ fn everything() -> Scene {
         film: None,
     };
     let rough_interface = PlasticInterface::rough(1.5, 0.3, MicrofacetDistribution::Beckmann, Masking::Separable);
+    scene.media.push(Medium {
+        name: "milk".into(),
+        absorption: Spectrum::BLACK,
+        scattering: Spectrum::WHITE,
+        emission: Spectrum::BLACK,
+        phase: Phase::isotropic(),
+        grids: None,
+    });
+    let slab = Slab { thickness: of(1), medium: Some(0) };
+    let layers = Layers { interfaces: vec![4, 12], slabs: vec![slab], model: LayerModel::Walk, mirrored: false };
     let blend = |materials, weight| MaterialKind::Blend { materials, weight };
     let threshold = BlendWeight::Threshold { tau: 0.5, of: Box::new(BlendWeight::Texture { texture: 4 }) };
     for (kind, emission) in [
@@ -166,6 +177,7 @@ fn everything() -> Scene {
         (plastic(PlasticInterface::smooth(1.5)), None),
         (brushed, None),
         (plastic(rough_interface), None),
+        (MaterialKind::Layered(Box::new(layers)), None),
     ] {
         let emission = emission.map(|radiance| Emission { radiance, two_sided: true });
         scene.materials.push(Material { emission, ..plain("material", kind) });
@@ -182,7 +194,7 @@ fn everything() -> Scene {
     let sheet = |z: f64| Geometry::Rectangle(Rectangle { corner: DVec3::new(0.0, 0.0, z), edge_u: DVec3::X, edge_v: DVec3::Y });
     let disk = Geometry::Disk(Disk { center: DVec3::new(0.0, 8.0, 0.0), normal: DVec3::Y, radius: 1.0 });
     for (geometry, material, moves) in [
-        (Geometry::Mesh(Arc::new(mesh(3, &[0, 1, 2, 4, 9, 11, 12, 13]))), 0, false),
+        (Geometry::Mesh(Arc::new(mesh(3, &[0, 1, 2, 4, 9, 11, 12, 13, 14]))), 0, false),
         (Geometry::Mesh(Arc::new(mesh(2, &[]))), 5, true),
         (ball(0.0), 6, false),
         (ball(3.0), 8, true),

@@ -1,8 +1,8 @@
 //! The types of materials, and the lobes that they scatter by.
 
 use super::blend_weight::BlendWeight;
-use super::layers::Layers;
 use super::dispersion::{Dispersion, iors};
+use super::layers::Layers;
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
 use super::parameters::{self, ParameterType, place};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};

@@ -1,5 +1,6 @@
 //! Real layers: interfaces one above the other, and slabs of a medium between them.
 
+use super::Material;
 use super::blend_weight::BlendWeight;
 use super::kind::MaterialKind;
 use super::microfacets::Microfacets;
@@ -98,7 +99,8 @@ impl Scene {
                 PhaseKind::HenyeyGreenstein { g } => 1.0 - g.abs(),
                 PhaseKind::Rayleigh => 1.0,
             };
-            let widest = medium.phase.0.iter().filter(|lobe| lobe.weight > 0.0).map(|lobe| of_kind(lobe.kind)).fold(0.0, f64::max);
+            let widest =
+                medium.phase.0.iter().filter(|lobe| lobe.weight > 0.0).map(|lobe| of_kind(lobe.kind)).fold(0.0, f64::max);
             if medium.scattering.is_black() { 0.0 } else { widest.max(1e-3) }
         };
         FlatLayer {
@@ -159,6 +161,13 @@ impl Scene {
             }
             _ => 1.0,
         }
+    }
+
+    /// A weight of the material, or of a part of it, depends on the direction.
+    pub(in crate::scene) fn is_blended_by_direction(&self, material: MaterialId) -> bool {
+        let by_direction =
+            |material: &Material| matches!(&material.kind, MaterialKind::Blend { weight, .. } if depends_on_direction(weight));
+        self.any_part(material, &by_direction)
     }
 
     /// A sentence about an interface that cannot lie in a stack.

@@ -87,6 +87,15 @@ impl Material {
         }
     }
 
+    /// The media in the slabs of a stack.
+    pub fn media_of_slabs(&self) -> impl Iterator<Item = crate::scene::MediumId> + '_ {
+        let slabs = match &self.kind {
+            MaterialKind::Layered(layers) => layers.slabs.as_slice(),
+            _ => &[],
+        };
+        slabs.iter().filter_map(|slab| slab.medium)
+    }
+
     /// The materials that it is made of: of a blend its parts, of a stack its interfaces; else none.
     pub fn components(&self) -> &[MaterialId] {
         match &self.kind {
@@ -114,7 +123,8 @@ impl Material {
         let weight = matches!(&self.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());
         let of_lobe = self.kind.lobe().is_some_and(|lobe| lobe.inputs().any(|(_, input)| input.is_texture()));
         let of_emission = self.emission.is_some_and(|emission| emission.radiance.is_texture());
-        let of_layers = matches!(&self.kind, MaterialKind::Layered(layers) if layers.slabs.iter().any(|slab| slab.thickness.is_texture()));
+        let of_layers =
+            matches!(&self.kind, MaterialKind::Layered(layers) if layers.slabs.iter().any(|slab| slab.thickness.is_texture()));
         weight || of_lobe || of_emission || of_layers || self.normal_map.is_some()
     }
 }

@@ -167,6 +167,7 @@ impl<'w> Writer<'w> {
             "emissive" => Element::new("bsdf", "diffuse").rgb("reflectance", Spectrum::BLACK),
             "pass" => Element::new("bsdf", "null"),
             "blend" => self.blend(material, place)?,
+            "layered" => self.layered(material, place)?,
             other => {
                 self.drop(&format!("material of type `{other}`"), place, "a diffuse surface stands for it");
                 let key = if material.contains_key("diffuse") { "diffuse" } else { "reflectance" };
@@ -280,6 +281,32 @@ impl<'w> Writer<'w> {
             }
         };
         Ok(if is_mask { element.reference(first) } else { element.reference(second).reference(first) })
+    }
+
+    /// Smooth glass on a diffuse base, with nothing between them, is plastic whose colour deepens.
+    fn layered(&mut self, material: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
+        let names = material.get("interfaces").and_then(Value::as_array).into_iter().flatten();
+        let interfaces: Vec<Table> = names.filter_map(Value::as_str).filter_map(|name| self.named(name)).cloned().collect();
+        for key in ["slabs", "model", "mirrored"] {
+            let _ = material.contains_key(key);
+        }
+        let is = |place: usize, kind: &str| interfaces.get(place).is_some_and(|table| text(table, "type") == Some(kind));
+        let is_plain = ["slabs", "model"].iter().all(|key| !material.contains_key(key));
+        let alike = |table: &Table| {
+            ["thin", "reflectance", "transmittance", "thin_film_thickness"].iter().all(|key| !table.contains_key(*key))
+        };
+        if interfaces.len() == 2 && is(0, "glass") && is(1, "diffuse") && is_plain && alike(&interfaces[0]) {
+            let element = Element::new("bsdf", "plastic")
+                .float("int_ior", number(&interfaces[0], "ior").unwrap_or(1.5))
+                .float("ext_ior", 1.0);
+            let element = element.boolean("nonlinear", true);
+            return self.with_colour(element, "diffuse_reflectance", &Keys::of(&interfaces[1]), "reflectance");
+        }
+        self.drop("material of type `layered`", place, "its last interface stands for it");
+        match interfaces.last() {
+            Some(last) => self.bsdf(&Keys::of(last), place),
+            None => Ok(Element::new("bsdf", "null")),
+        }
     }
 
     /// The light of a material; None where it gives none.

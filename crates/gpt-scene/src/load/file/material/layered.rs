@@ -90,12 +90,8 @@ impl MaterialKeys for Keys {
                 slabs.value.0.iter().map(|slab| slab.resolve(resolver)).collect::<Result<Vec<_>, _>>()?
             }
             Some(slabs) => {
-                let message = format!(
-                    "there {} between {} interfaces, and {} written",
-                    are(between, "slab"),
-                    interfaces.len(),
-                    are(slabs.value.0.len(), "")
-                );
+                let written = slabs.value.0.len();
+                let message = format!("between {} interfaces are {between} slabs, and {written} are written", interfaces.len());
                 let help = "write one slab between each two interfaces, `{}` where there is nothing";
                 return Err(resolver.error(&slabs.place, message).with_help(help));
             }
@@ -127,7 +123,8 @@ impl MaterialKeys for Keys {
         let mut out = line("interfaces", &list(layers.interfaces.iter().map(|&id| writer.materials.quoted(id))));
         if layers.slabs.iter().any(|slab| *slab != Slab::NOTHING) {
             let written = |slab: &Slab| {
-                let thickness = (slab.thickness != Slab::NOTHING.thickness).then(|| ("thickness", writer.value_of(slab.thickness)));
+                let thickness =
+                    (slab.thickness != Slab::NOTHING.thickness).then(|| ("thickness", writer.value_of(slab.thickness)));
                 let medium = slab.medium.map(|id| ("medium", writer.media.quoted(id)));
                 table(thickness.into_iter().chain(medium))
             };
@@ -152,11 +149,4 @@ impl SlabEntry {
         }
         Ok(Slab { thickness, medium })
     }
-}
-
-/// "is 1 slab", "are 2 slabs".
-fn are(count: usize, what: &str) -> String {
-    let verb = if count == 1 { "is" } else { "are" };
-    let plural = if count == 1 || what.is_empty() { "" } else { "s" };
-    format!("{verb} {count} {what}{plural}").trim_end().to_owned()
 }

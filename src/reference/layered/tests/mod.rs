@@ -1,5 +1,7 @@
 //! Stacks against closed forms, against oracles, and by their own estimators.
 
+mod doubling;
+
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -56,6 +58,11 @@ name = "sharp"
 type = "rough_glass"
 ior = 1.5
 alpha = 0.12
+[[material]]
+name = "wide"
+type = "rough_glass"
+ior = 0.8
+alpha = 0.5
 [[material]]
 name = "white"
 type = "diffuse"
@@ -241,12 +248,12 @@ fn nothing_is_lost_between_layers() {
         let probe = Probe::new(keys);
         for degrees in [0.0, 45.0, 80.0, 89.0] {
             // Channels that differ make noise.
-            let count = if keys.contains("milk") { 1_200_000 } else { 60_000 };
+            let count = if keys.contains("milk") { 200_000 } else { 60_000 };
             let walks = probe.walks(at(degrees, 0.1), count);
             let all = walks[0].value() + walks[1].value();
             let error = walks[0].error().max_component() + walks[1].error().max_component();
             let difference = (all - Spectrum::WHITE).to_rgb().into_iter().map(f64::abs).fold(0.0, f64::max);
-            assert!(difference < 2e-3 + 3.0 * error && error < 2e-3, "{keys} at {degrees}: {all}, error {error}");
+            assert!(difference < 2e-3 + 3.0 * error && error < 6e-3, "{keys} at {degrees}: {all}, error {error}");
         }
     }
     let lossy = Probe::new("interfaces = ['varnish', 'white']\nslabs = [{ thickness = 0.01, medium = 'dye' }]");
@@ -318,7 +325,8 @@ fn stacks_are_reciprocal() {
         let probe = Probe::new(keys);
         let ends = probe.layers.of(probe.surface.owner.material).expect("it is a stack");
         let eta: f64 = ends.layers.iter().map(|layer| layer.flat.ior).product();
-        let pairs = [(at(20.0, 0.0), at(60.0, 1.0), 1.0), (at(70.0, 0.3), at(75.0, 3.2), 1.0), (at(40.0, 0.0), -at(30.0, 2.0), eta)];
+        let pairs =
+            [(at(20.0, 0.0), at(60.0, 1.0), 1.0), (at(70.0, 0.3), at(75.0, 3.2), 1.0), (at(40.0, 0.0), -at(30.0, 2.0), eta)];
         for (wo, wi, eta) in pairs {
             let there = probe.estimates(wo, wi, 30_000);
             let mut back = probe.estimates(wi, wo, 30_000);
@@ -334,10 +342,12 @@ fn stacks_are_reciprocal() {
 /// What is taken for the density of walks integrates to about 1 where nothing is lost, and Weidlich and Wilkie's density is that of its own samples.
 #[test]
 fn densities_are_those_of_samples() {
-    let probe = Probe::new("interfaces = ['frost', 'gold']\nslabs = [{ thickness = 0.2, medium = 'dye' }]\nmodel = 'weidlich-wilkie'");
+    let probe =
+        Probe::new("interfaces = ['frost', 'gold']\nslabs = [{ thickness = 0.2, medium = 'dye' }]\nmodel = 'weidlich-wilkie'");
     for wo in [at(20.0, 0.3), at(65.0, 1.0)] {
         probe.with(wo, |stack| {
-            let (mut drawn, mut valued, mut integral, mut share) = (Mean::default(), Mean::default(), Mean::default(), Mean::default());
+            let (mut drawn, mut valued, mut integral, mut share) =
+                (Mean::default(), Mean::default(), Mean::default(), Mean::default());
             for index in 0..60_000 {
                 let mut stream = Stream::new(mix(index ^ 0x7777_1111));
                 let numbers = [stream.draw(), stream.draw(), stream.draw()];
