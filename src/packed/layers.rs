@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashSet};
 use super::error::PackError;
 use super::material::color_and_texture;
 use super::medium::PackedMedia;
-use crate::scene::{Filling, FlatLayer, LayerModel, Layers, MaterialId, MaterialKind, Scene};
+use crate::scene::{Filling, FlatLayer, LayerModel, LayerStack, MaterialId, MaterialKind, Scene};
 use crate::shader::shared::shared_constants;
 
 shared_constants!(constants {
@@ -58,7 +58,7 @@ impl LayerRun {
     /// Packs the layers of a stack; interfaces keep the scene's numbers until their places are known.
     pub fn new(
         scene: &Scene,
-        (id, kind): (MaterialId, &Layers),
+        (id, kind): (MaterialId, &LayerStack),
         layers: &mut Vec<PackedLayer>,
         media: &mut PackedMedia,
     ) -> Result<Self, PackError> {

@@ -13,7 +13,7 @@ use super::medium::PackedMedia;
 use super::texture::mention;
 use crate::scene::material::{self, AlbedoTable};
 use crate::scene::{
-    BlendMode, Channel, ChannelInput, ColorInput, Layers, LobeKind, Masking, Material, MaterialId, MaterialKind, Media, Scene,
+    BlendMode, Channel, ChannelInput, ColorInput, LayerStack, LobeKind, Masking, Material, MaterialId, MaterialKind, Media, Scene,
 };
 use crate::shader::shared::{Constant, Constants, shared_constants};
 use crate::spectrum::Spectrum;
@@ -285,7 +285,7 @@ impl PackedMaterials {
         }
     }
 
-    fn layered(&mut self, scene: &Scene, stack: (MaterialId, &Layers)) -> Result<PackedMaterial, PackError> {
+    fn layered(&mut self, scene: &Scene, stack: (MaterialId, &LayerStack)) -> Result<PackedMaterial, PackError> {
         let mut packed = PackedMaterial::new(&scene.materials[stack.0]);
         let run = LayerRun::new(scene, stack, &mut self.layers, &mut self.media)?;
         packed.kind_and_form = LAYERED;

@@ -49,7 +49,7 @@ pub use light::{
     OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
 pub use material::{
-    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, FlatLayer, LayerModel, Layers, LobeKind,
+    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, FlatLayer, LayerModel, LayerStack, LobeKind,
     LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets,
     PlasticInterface, Principled, Slab, Subsurface, ThinFilm,
 };

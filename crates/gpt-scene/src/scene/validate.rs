@@ -9,7 +9,7 @@ use super::blend_tree::check_blends;
 use super::camera::{ApertureShape, Camera, Projection};
 use super::check::{Check, image, is_amount, is_positive, within_range};
 use super::light::{Environment, EnvironmentRadiance, Light};
-use super::material::{BlendWeight, Layers, Material, MaterialId, MaterialKind, ParameterType, Subsurface};
+use super::material::{BlendWeight, LayerStack, Material, MaterialId, MaterialKind, ParameterType, Subsurface};
 use super::medium::MediumId;
 use super::model::Scene;
 use super::settings::{BadSetting, BlendMode};
@@ -140,7 +140,7 @@ impl Scene {
         })
     }
 
-    fn check_layers(&self, layers: &Layers) -> Check {
+    fn check_layers(&self, layers: &LayerStack) -> Check {
         layers.interfaces.iter().try_for_each(|&id| self.material_exists(id))?;
         if layers.interfaces.is_empty() || layers.slabs.len() + 1 != layers.interfaces.len() {
             return Err("it needs an interface, and one slab between each two".into());

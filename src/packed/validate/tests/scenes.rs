@@ -12,8 +12,8 @@ use crate::packed::light::LightKind;
 use crate::sampling::light_cells::table;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
-    EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, LayerModel, Layers, Light, LightChoice, Masking,
-    Material, MaterialKind, Medium, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Phase, Plane,
+    EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, LayerModel, LayerStack, Light, LightChoice,
+    Masking, Material, MaterialKind, Medium, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Phase, Plane,
     PlasticInterface, ProjectedTexture, Rectangle, Scene, Shape, Slab, Sphere, Texels, Texture, TextureFilter, TextureKind,
     TextureWrap, Transform,
 };
@@ -159,7 +159,7 @@ fn everything() -> Scene {
         grids: None,
     });
     let slab = Slab { thickness: of(1), medium: Some(0) };
-    let layers = Layers { interfaces: vec![4, 12], slabs: vec![slab], model: LayerModel::Walk, mirrored: false };
+    let layers = LayerStack { interfaces: vec![4, 12], slabs: vec![slab], model: LayerModel::Walk, mirrored: false };
     let blend = |materials, weight| MaterialKind::Blend { materials, weight };
     let threshold = BlendWeight::Threshold { tau: 0.5, of: Box::new(BlendWeight::Texture { texture: 4 }) };
     for (kind, emission) in [

@@ -188,7 +188,7 @@ fn rough_stacks_with_slabs_are_what_adding_and_doubling_say() {
             let wo = direction(nodes[row].0, 0.0);
             let (mut mean, mut lobes) = (Mean::default(), [Mean::default(); 8]);
             probe.with(wo, |stack| {
-                for index in 0..400_000 {
+                for index in 0..200_000 {
                     let mut stream = Stream::new(mix(index ^ 0x5a5a_0101));
                     let first = [stream.draw(), stream.draw(), stream.draw()];
                     let sample = stack.walk(wo, first, &mut stream).filter(|sample| sample.wi.z > 0.0);

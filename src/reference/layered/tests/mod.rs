@@ -248,12 +248,12 @@ fn nothing_is_lost_between_layers() {
         let probe = Probe::new(keys);
         for degrees in [0.0, 45.0, 80.0, 89.0] {
             // Channels that differ make noise.
-            let count = if keys.contains("milk") { 200_000 } else { 60_000 };
+            let count = if keys.contains("milk") { 120_000 } else { 40_000 };
             let walks = probe.walks(at(degrees, 0.1), count);
             let all = walks[0].value() + walks[1].value();
             let error = walks[0].error().max_component() + walks[1].error().max_component();
             let difference = (all - Spectrum::WHITE).to_rgb().into_iter().map(f64::abs).fold(0.0, f64::max);
-            assert!(difference < 2e-3 + 3.0 * error && error < 6e-3, "{keys} at {degrees}: {all}, error {error}");
+            assert!(difference < 2e-3 + 3.0 * error && error < 8e-3, "{keys} at {degrees}: {all}, error {error}");
         }
     }
     let lossy = Probe::new("interfaces = ['varnish', 'white']\nslabs = [{ thickness = 0.01, medium = 'dye' }]");

@@ -2,7 +2,7 @@
 
 use super::blend_weight::BlendWeight;
 use super::dispersion::{Dispersion, iors};
-use super::layers::Layers;
+use super::layers::LayerStack;
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
 use super::parameters::{self, ParameterType, place};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
@@ -59,7 +59,7 @@ pub enum MaterialKind {
     /// w0·first + (1 − w0)·second.
     Blend { materials: [MaterialId; 2], weight: BlendWeight },
     /// Interfaces one above the other, and what lies between them.
-    Layered(Box<Layers>),
+    Layered(Box<LayerStack>),
     /// The ray goes on as if nothing were there.
     Pass,
 }

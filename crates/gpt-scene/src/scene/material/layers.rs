@@ -15,7 +15,7 @@ pub const MOST_INTERFACES: usize = 64;
 
 /// Interfaces that light meets one after the other, from the front to the back, and what is between them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Layers {
+pub struct LayerStack {
     /// At least one. One that is itself a stack stands for all of its interfaces.
     pub interfaces: Vec<MaterialId>,
     /// One fewer than interfaces: number i lies between interfaces i and i + 1.

@@ -12,7 +12,7 @@ use crate::load::file::reference::NamesTextures;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative};
 use crate::load::file::writer::{Writer, line, list, table};
-use crate::scene::{LayerModel, Layers, MaterialKind, Slab};
+use crate::scene::{LayerModel, LayerStack, MaterialKind, Slab};
 
 material_keys! {
     /// Interfaces one above the other, with slabs between them: paint below varnish, a metal below a frosted foil. Light is carried between the layers.
@@ -100,7 +100,7 @@ impl MaterialKeys for Keys {
             Some(LayerModelEntry::WeidlichWilkie) => LayerModel::Straight,
             Some(LayerModelEntry::Walk) | None => LayerModel::Walk,
         };
-        Ok(MaterialKind::Layered(Box::new(Layers { interfaces, slabs, model, mirrored: self.mirrored.unwrap_or(false) })))
+        Ok(MaterialKind::Layered(Box::new(LayerStack { interfaces, slabs, model, mirrored: self.mirrored.unwrap_or(false) })))
     }
 
     /// A stack ends in interfaces that are no stacks. Other rules are checked by the scene.
