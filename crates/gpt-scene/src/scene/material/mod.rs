@@ -6,6 +6,7 @@ pub mod dispersion;
 mod kind;
 mod layers;
 mod microfacets;
+mod numbers;
 mod parameters;
 mod plastic;
 pub mod principled;
