@@ -10,7 +10,7 @@ fn at(blend_weight: &BlendWeight, cosine: f64) -> f64 {
     scene.textures.push(Texture::new("mask", TextureKind::Checker { a, b, scale: [2.0, 2.0] }));
     // The left lower field is a, its right neighbour b.
     let uv = if cosine < 0.5 { DVec2::new(0.1, 0.1) } else { DVec2::new(0.6, 0.1) };
-    weight(blend_weight, &Lookup { scene: &scene, uv: uv.into(), cosine, front: true, by_camera: false })
+    weight(blend_weight, &Lookup { scene: &scene, uv: uv.into(), cosine, normal: DVec3::Z, front: true, by_camera: false })
 }
 
 fn reverse(of: BlendWeight) -> BlendWeight {

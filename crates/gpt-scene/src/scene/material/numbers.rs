@@ -155,6 +155,8 @@ impl Numbers for BlendWeight {
                 visit(tau);
                 of.each_number(visit);
             }
+            Self::Up { power, .. } => visit(power),
+            Self::Open { distance, power } => each!(visit: distance, power),
             Self::Front | Self::Camera | Self::Texture { .. } => {}
         }
     }
@@ -195,6 +197,8 @@ impl Numbers for MaterialKind {
             Self::Diffuse { reflectance } | Self::Mirror { reflectance } => reflectance.each_number(visit),
             Self::Glossy { reflectance, exponent } => each!(visit: reflectance, exponent),
             Self::Phong { diffuse, specular, exponent } => each!(visit: diffuse, specular, exponent),
+            Self::OrenNayar { reflectance, roughness, .. } => each!(visit: reflectance, roughness),
+            Self::Dust { albedo, thickness, anisotropy, base } => each!(visit: albedo, thickness, anisotropy, base),
             Self::DiffuseTransmission { reflectance, transmittance } => each!(visit: reflectance, transmittance),
             Self::Glass { ior, reflectance, transmittance, film, dispersion, .. } => {
                 each!(visit: ior, reflectance, transmittance, film, dispersion);
