@@ -10,6 +10,7 @@ mod facets;
 mod fresnel;
 mod mixtures;
 mod plastic;
+mod rough_diffuse;
 mod sides;
 mod spectral;
 mod views;
