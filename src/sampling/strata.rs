@@ -163,7 +163,8 @@ mod tests {
         };
         let shared = |d: Dimension, s: u32| shared_strata_bits(9, samples, d, s);
         let own = |d: Dimension, s: u32| stratified_bits(9, samples, d, s);
-        let order = |bits: &dyn Fn(Dimension, u32) -> u32, depth: u32| (0..samples).map(|s| cell(bits, depth, s)).collect::<Vec<u32>>();
+        let order =
+            |bits: &dyn Fn(Dimension, u32) -> u32, depth: u32| (0..samples).map(|s| cell(bits, depth, s)).collect::<Vec<u32>>();
         for depth in 0..3 {
             let mut here = order(&shared, depth);
             let next = order(&shared, depth + 1);

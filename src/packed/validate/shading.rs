@@ -62,7 +62,8 @@ impl PackedScene {
             let kind = weight.kind_and_flags & 255;
             let known = kind <= WeightKind::Up as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
             let is_axis = kind == WeightKind::Up as u32;
-            if !known || (!is_axis && weight.looks_up() != (weight.texture != NONE)) {
+            let is_beyond = weight.looks_up() && weight.texture as usize >= self.textures.textures.len();
+            if !known || is_beyond || (!is_axis && weight.looks_up() != (weight.texture != NONE)) {
                 return Err(format!("weight {index} is of kind {:#x} and has texture {}", weight.kind_and_flags, weight.texture));
             }
         }

@@ -79,7 +79,8 @@ fn values_are_those_of_the_paper() {
         assert!((value(qualitative(rho, 0.6)) - simple).abs() < 1e-12, "{cos_phi}");
         let away = if cos_phi < 0.0 { (2.0 * beta / PI).powi(3) } else { 0.0 };
         let c3 = 0.125 * sigma2 / (sigma2 + 0.09) * (4.0 * alpha * beta / (PI * PI)).powi(2);
-        let once = a + cos_phi * b * (alpha.sin() - away) * beta.tan() + (1.0 - cos_phi.abs()) * c3 * ((alpha + beta) / 2.0).tan();
+        let once =
+            a + cos_phi * b * (alpha.sin() - away) * beta.tan() + (1.0 - cos_phi.abs()) * c3 * ((alpha + beta) / 2.0).tan();
         let twice = 0.17 * rho * sigma2 / (sigma2 + 0.13) * (1.0 - cos_phi * (2.0 * beta / PI).powi(2));
         assert!((value(full(rho, 0.6)) - once - twice).abs() < 1e-12, "{cos_phi}");
     }
