@@ -30,8 +30,8 @@ fn oren_nayar_f(lobe: Lobe, directions: Directions) -> Spectrum {
     let c1 = 1.0 - 0.5 * sigma2 / (sigma2 + 0.33);
     let c2 = 0.45 * spread * (sin_a - away);
     let c3 = 0.125 * spread * (alpha * beta) * (alpha * beta);
-    let half = (sin_a + sin_b) / (cos_a + cos_b);
-    let once = c1 + cos_phi * c2 * sin_b / cos_b + (1.0 - abs(cos_phi)) * c3 * half;
+    let tangent_of_half = (sin_a + sin_b) / (cos_a + cos_b);
+    let once = c1 + cos_phi * c2 * sin_b / cos_b + (1.0 - abs(cos_phi)) * c3 * tangent_of_half;
     let twice = 0.17 * sigma2 / (sigma2 + 0.13) * (1.0 - cos_phi * beta * beta);
     return lobe.color0 * ((once + lobe.color0 * twice) * INVERSE_PI);
 }
