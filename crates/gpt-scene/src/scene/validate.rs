@@ -93,7 +93,7 @@ impl Scene {
         self.instances.iter().try_for_each(|entry| of(|| entry.label.clone(), check(entry)))
     }
 
-    /// The distances and powers of the weights by openness in each material, at any depth of a blend.
+    /// The distances and powers of the weights by openness in each material, at any depth of blends and stacks.
     pub fn openness(&self) -> Vec<Vec<[f64; 2]>> {
         let of_weight = |material: &Material| match &material.kind {
             MaterialKind::Blend { weight, .. } => weight.openness(),
@@ -106,6 +106,9 @@ impl Scene {
                 if visited.insert(id) {
                     found.extend(of_weight(&self.materials[id]));
                     to_visit.extend_from_slice(self.materials[id].parts());
+                    if let MaterialKind::Layered(layers) = &self.materials[id].kind {
+                        to_visit.extend_from_slice(&layers.interfaces);
+                    }
                 }
             }
             found

@@ -218,6 +218,7 @@ impl Numbers for MaterialKind {
             }
             Self::Principled(principled) => principled.each_number(visit),
             Self::Blend { weight, .. } => weight.each_number(visit),
+            Self::Layered(layers) => layers.slabs.iter_mut().for_each(|slab| slab.thickness.each_number(visit)),
             Self::Emissive | Self::Pass => {}
         }
     }
