@@ -253,9 +253,51 @@ def smoke():
     montage("smoke.jpg", 3, [("bonfire", way, 64, "--size", "240x320", "--sampler", "independent") for way in (BSDF, NEE, MIS)])
 
 
+BLEND = 'weight = { type = "constant", value = 1 }'
+
+
+def heuristics():
+    """Every heuristic of blends on a ball, with two parameters each."""
+
+    def facing(power):
+        return f'{{ type = "facing", power = {power} }}'
+
+    weights = [
+        *(f'{{ type = "constant", value = {value} }}' for value in (1, 0.5)),
+        *map(facing, (0.2, 10)),
+        *(f'{{ type = "fresnel", ior = {ior} }}' for ior in (1, 2.5)),
+        *(f'{{ type = "threshold", tau = {tau}, of = {facing(5)} }}' for tau in (0.05, 0.2)),
+    ]
+    cells = [("heuristics", Way(weight, [], {BLEND: f"weight = {weight}"}), 256) for weight in weights]
+    # The first parameters above, the second below.
+    montage("heuristics.jpg", 4, cells[::2] + cells[1::2])
+
+
+def mixed_glass():
+    """Silver and green rough glass in one surface."""
+    montage("silver-and-glass.jpg", 1, [("silver-and-glass", MIS, 1024)])
+
+
+def aging():
+    """Materials that change with time: drying paint, a stone that dries, dust that settles."""
+    scenes = ("drying-paint", "drying-stone", "dust")
+    montage("aging.jpg", 4, [(scene, MIS, 256, "--frame", frame) for scene in scenes for frame in (0, 16, 32, 48)])
+
+
+def strata():
+    """Strata whose indices a path's surfaces share, beside those of their own and none."""
+    samples = [16, 64, 256]
+    names = ("independent", "shared_strata", "stratified")
+    truths = references("box", MIS, 1024)
+    for estimator in ("bsdf", "mis"):
+        ways = [Way(f"`{name}`", ["--estimator", estimator, "--sampler", name]) for name in names]
+        rows = ways_by_samples(f"strata, {estimator}", "box", ways, samples, truths, 96)
+        table(f"strata, {estimator}", heading("sampler", samples), rows)
+
+
 FIGURES = {
     figure.__name__: figure
-    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers)
+    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers, heuristics, mixed_glass, aging, strata)
 }
 
 

@@ -53,7 +53,12 @@ struct Surface {
 
 // How a surface is seen along `wo`.
 fn seen_along(surface: Surface, wo: vec3<f32>) -> Seen {
-    return Seen(clamp(dot(wo, surface.shading_normal), 0.0, 1.0), surface.front, surface.by_camera);
+    return Seen(
+        clamp(dot(wo, surface.shading_normal), 0.0, 1.0), surface.front, surface.by_camera
+#if WEIGHTS_BY_DIRECTION
+        , surface.shading_normal
+#endif
+    );
 }
 
 // An interpolated or mapped normal on wo's side; the facing normal where there is none or wo is below its horizon.

@@ -119,6 +119,7 @@ fn weight_at(scene: &Scene, weight: &BlendWeight, uv: Option<Coordinates>) -> Op
     match *weight {
         BlendWeight::Constant { value } => Some(value),
         BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Front | BlendWeight::Camera => None,
+        BlendWeight::Up { .. } | BlendWeight::Open { .. } => None,
         BlendWeight::Texture { texture } => Some(texture::look_up(&scene.textures, texture, uv?).luminance().clamp(0.0, 1.0)),
         BlendWeight::Channel { texture, channel, factor } => {
             Some((factor * texture::look_up_channel(&scene.textures, texture, channel, uv?)).clamp(0.0, 1.0))

@@ -7,6 +7,7 @@
 mod extent;
 mod guide;
 mod light_cells;
+mod openness;
 mod paths;
 mod reasons;
 mod settle;

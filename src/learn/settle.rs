@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::reasons::Reasons;
 use super::trial::{self, Chosen};
-use super::{guide, guide::Learned};
+use super::{guide, guide::Learned, openness};
 use crate::reference::Integrator;
 use crate::renderer::RenderError;
 use crate::sampling::light_strategy::MANY_LIGHTS;
@@ -36,6 +36,14 @@ pub struct Settled<'a> {
 /// [`RenderError`] for a scene that is not valid or that the reference cannot render.
 pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
     scene.validate()?;
+    match openness::baked(scene)? {
+        None => settle_baked(scene),
+        Some(baked) => settle_baked(&baked).map(Settled::into_owned),
+    }
+}
+
+/// Settles a scene without weights that are still to be baked.
+fn settle_baked(scene: &Scene) -> Result<Settled<'_>, RenderError> {
     let was_open = scene.render.light_choice == LightChoice::Auto;
     let Chosen { scene, mut because, was_tried, mut integrator } = trial::choose(scene)?;
     let light_cells = integrator.as_ref().and_then(|integrator| integrator.light_cells().cloned());
@@ -51,6 +59,13 @@ pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
 }
 
 impl Settled<'_> {
+    /// The same with a scene of its own.
+    fn into_owned(self) -> Settled<'static> {
+        let Self { scene, because, light_cells, guide, depends_on_view, integrator, chose_cells } = self;
+        let scene = Cow::Owned(scene.into_owned());
+        Settled { scene, because, light_cells, guide, depends_on_view, integrator, chose_cells }
+    }
+
     /// Gives up cells of lights, for a device on which they have no room, where nobody asked for them:
     /// `local_lights` inside the scene are then chosen by a tree, or by power where they are few. Returns
     /// whether there were cells to give up.

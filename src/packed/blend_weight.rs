@@ -1,7 +1,11 @@
 //! Weights of a blend, as the device reads them.
 
+use glam::DVec3;
+
 use super::constants::NONE;
 use super::texture::mention;
+use crate::math::octahedron;
+use crate::scene::material::AXIS_STEPS;
 use crate::scene::{BlendWeight, Channel};
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
@@ -20,6 +24,8 @@ shared_kinds! {
         Front = 6 as WEIGHT_FRONT,
         /// 1 for rays of the camera that nothing has scattered, else 0.
         Camera = 7 as WEIGHT_CAMERA,
+        /// By the normal and an axis, whose place on an octahedron stands for the texture, 16 bits a coordinate.
+        Up = 8 as WEIGHT_UP,
     }
 }
 
@@ -49,18 +55,27 @@ pub struct PackedBlendWeight {
     pub texture: u32,
 }
 
+/// An axis as WGSL's `unpack2x16snorm` reads it.
+fn axis_bits(axis: DVec3) -> u32 {
+    let [x, y] = octahedron::place_of(axis).map(|x| u32::from((x * AXIS_STEPS).round() as i16 as u16));
+    x | y << 16
+}
+
 /// The weight where it is the same at every hit.
 pub(super) fn constant_weight(weight: &BlendWeight) -> Option<f64> {
     match weight {
         BlendWeight::Constant { value } => Some(*value),
         BlendWeight::Reverse { of } => constant_weight(of).map(|value| 1.0 - value),
         BlendWeight::Threshold { tau, of } => constant_weight(of).map(|value| f64::from(u8::from(value >= *tau))),
+        // Baked weights are textures.
+        BlendWeight::Open { .. } => Some(1.0),
         // x⁰
         BlendWeight::Facing { power } if *power == 0.0 => Some(1.0),
         BlendWeight::Facing { .. }
         | BlendWeight::Fresnel { .. }
         | BlendWeight::Front
         | BlendWeight::Camera
+        | BlendWeight::Up { .. }
         | BlendWeight::Texture { .. }
         | BlendWeight::Channel { .. } => None,
     }
@@ -82,6 +97,8 @@ impl PackedBlendWeight {
             BlendWeight::Fresnel { ior, exact: true } => plain(WeightKind::FresnelExact, *ior, NONE),
             BlendWeight::Front => plain(WeightKind::Front, 0.0, NONE),
             BlendWeight::Camera => plain(WeightKind::Camera, 0.0, NONE),
+            BlendWeight::Up { axis, power } => plain(WeightKind::Up, *power, axis_bits(*axis)),
+            BlendWeight::Open { .. } => plain(WeightKind::Constant, 1.0, NONE),
             BlendWeight::Texture { texture } => plain(WeightKind::Texture, 0.0, *texture as u32),
             BlendWeight::Channel { texture, channel, factor } => {
                 // The first one stands there anyway.
@@ -106,6 +123,16 @@ impl PackedBlendWeight {
     /// True where the weight depends on the viewer of the surface: the camera, or something else.
     pub(super) fn is_by_viewer(&self) -> bool {
         self.is_one_of(&[WeightKind::Camera])
+    }
+
+    /// True where the weight depends on the direction of the surface's normal.
+    pub(super) fn is_by_direction(&self) -> bool {
+        self.is_one_of(&[WeightKind::Up])
+    }
+
+    /// True where `texture` is one.
+    pub(super) fn looks_up(&self) -> bool {
+        self.is_one_of(&[WeightKind::Texture, WeightKind::Channel])
     }
 
     fn is_one_of(&self, kinds: &[WeightKind]) -> bool {

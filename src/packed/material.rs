@@ -324,7 +324,7 @@ impl PackedMaterials {
 
     /// Every mention of a texture, to be renumbered.
     pub(super) fn textures_mut(&mut self) -> impl Iterator<Item = &mut u32> {
-        let of_weights = self.weights.iter_mut().map(|weight| &mut weight.texture);
+        let of_weights = self.weights.iter_mut().filter(|weight| weight.looks_up()).map(|weight| &mut weight.texture);
         let of_further = self.further.iter_mut().map(|parameter| &mut parameter.texture);
         let of_layers = self.layers.iter_mut().map(PackedLayer::texture_mut);
         self.materials
@@ -392,6 +392,11 @@ impl PackedMaterials {
     /// Some weight of a blend is another for the camera.
     pub fn has_weights_by_viewer(&self) -> bool {
         self.weights.iter().any(PackedBlendWeight::is_by_viewer)
+    }
+
+    /// Some weight of a blend depends on the direction of the surface's normal.
+    pub fn has_weights_by_direction(&self) -> bool {
+        self.weights.iter().any(PackedBlendWeight::is_by_direction)
     }
 
     /// Some part of a blend is black from behind.

@@ -293,6 +293,7 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("MORE_LOBES", blends && mixture && more_lobes);
     switches.enable("PICK", blends && !mixture);
     switches.enable("WEIGHTS_BY_ANGLE", blends && packed.materials.has_weights_by_angle());
+    switches.enable("WEIGHTS_BY_DIRECTION", blends && packed.materials.has_weights_by_direction());
     switches.enable("WEIGHTS_BY_SIDE", blends && packed.materials.has_weights_by_side());
     switches.enable("WEIGHTS_BY_VIEWER", blends && packed.materials.has_weights_by_viewer());
     let has_maps = packed.materials.materials.iter().any(|material| material.normal_map != NONE);

@@ -98,6 +98,16 @@ impl Dimension {
         Some((self.0 - CAMERA_DIMENSIONS) / VERTEX_DIMENSIONS)
     }
 
+    /// The vertex of a direction that a material samples and which of the two coordinates it is.
+    pub const fn of_direction(self) -> Option<(u32, usize)> {
+        let Some(beyond) = self.0.checked_sub(CAMERA_DIMENSIONS) else { return None };
+        match beyond % VERTEX_DIMENSIONS {
+            4 => Some((beyond / VERTEX_DIMENSIONS, 0)),
+            5 => Some((beyond / VERTEX_DIMENSIONS, 1)),
+            _ => None,
+        }
+    }
+
     /// The pairs are the positions in the pixel, on the lens and on a light, and the direction that a material samples.
     pub const fn strata(self) -> Strata {
         let Self(d) = self;

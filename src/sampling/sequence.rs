@@ -3,7 +3,7 @@
 use super::dimension::{Dimension, SEQUENCE_DIMENSIONS, VertexDimension};
 use super::halton::radical_inverse_bits;
 use super::sobol::sobol_bits;
-use super::strata::{quadrant_bits, stratified_bits};
+use super::strata::{quadrant_bits, shared_strata_bits, stratified_bits};
 use crate::scene::{PixelSampler, RenderSettings, SamplerKind};
 
 /// Everything a render's random numbers depend on beside pixel and sample.
@@ -52,7 +52,7 @@ impl Decorrelation {
     pub fn of(sampler: SamplerKind) -> Self {
         match sampler {
             SamplerKind::Independent => Self::Hashed,
-            SamplerKind::Stratified | SamplerKind::Halton => Self::Rotation,
+            SamplerKind::Stratified | SamplerKind::Halton | SamplerKind::SharedStrata => Self::Rotation,
             SamplerKind::Quadrant | SamplerKind::Sobol => Self::DigitalShift,
         }
     }
@@ -96,6 +96,7 @@ impl Sampling {
         match self.sampler_of(dimension) {
             None | Some(SamplerKind::Independent) => 0,
             Some(SamplerKind::Stratified) => stratified_bits(self.seed, samples, dimension, sample),
+            Some(SamplerKind::SharedStrata) => shared_strata_bits(self.seed, samples, dimension, sample),
             Some(SamplerKind::Quadrant) => quadrant_bits(self.seed, dimension, sample),
             Some(SamplerKind::Halton) => radical_inverse_bits(self.seed, d, sample),
             Some(SamplerKind::Sobol) => sobol_bits(self.seed, d, sample),

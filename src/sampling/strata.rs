@@ -28,6 +28,20 @@ pub fn stratified_bits(seed: u32, samples: u32, dimension: Dimension, sample: u3
     }
 }
 
+/// A coordinate of `sample` where the strata of all directions of a path have one random order, k(0), k(1), …, and the surface of depth d takes number
+/// (sample + d) modulo `samples` of it (Legmaier's master's thesis, equation 4.3). All other coordinates are random.
+///
+/// The thesis adds the pixel's coordinates as well. This changes only which of a pixel's samples takes which strata, not the mean of them all.
+pub fn shared_strata_bits(seed: u32, samples: u32, dimension: Dimension, sample: u32) -> u32 {
+    let key = mix(seed ^ 0x51ed_270b);
+    let Some((depth, axis)) = dimension.of_direction() else {
+        return jitter(dimension_bits(key, dimension.0), 0, sample);
+    };
+    let (round, index) = (sample / samples, (sample % samples + depth) % samples);
+    let cell = permuted(index, samples, key ^ mix(round));
+    cell_bits(cell, samples, axis, jitter(dimension_bits(key, dimension.0), axis as u32, sample))
+}
+
 /// A coordinate inside one of `samples` cells of the square.
 fn cell_bits(cell: u32, samples: u32, axis: usize, jitter: u32) -> u32 {
     let (cell, count) = (u64::from(cell), u64::from(samples));
@@ -109,6 +123,7 @@ fn fixed_point(cell: u64, digits: u32, jitter: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sampling::VertexDimension;
 
     fn point(bits: impl Fn(Dimension, u32) -> u32, sample: u32) -> [f64; 2] {
         [0, 1].map(|d| (f64::from(bits(Dimension(d), sample)) + 0.5) / 4_294_967_296.0)
@@ -134,6 +149,31 @@ mod tests {
                 assert!(counts.iter().chain(&on_the_line).all(|&count| count == 1), "{samples}: {counts:?} {on_the_line:?}");
             }
         }
+    }
+
+    /// Each surface's directions fill all strata, and those of the next one have the same order, one further: a sample's stratum is that of the
+    /// sample after it at the surface before. The control: `stratified` has another order at each.
+    #[test]
+    fn surfaces_share_an_order_of_strata() {
+        let samples = 16_u32;
+        let cell = |bits: &dyn Fn(Dimension, u32) -> u32, depth: u32, sample: u32| {
+            let at = |name| f64::from(bits(Dimension::vertex(depth, name), sample)) / 4_294_967_296.0;
+            let [x, y] = [at(VertexDimension::BsdfU), at(VertexDimension::BsdfV)];
+            (4.0 * y) as u32 * 4 + (4.0 * x) as u32
+        };
+        let shared = |d: Dimension, s: u32| shared_strata_bits(9, samples, d, s);
+        let own = |d: Dimension, s: u32| stratified_bits(9, samples, d, s);
+        let order =
+            |bits: &dyn Fn(Dimension, u32) -> u32, depth: u32| (0..samples).map(|s| cell(bits, depth, s)).collect::<Vec<u32>>();
+        for depth in 0..3 {
+            let mut here = order(&shared, depth);
+            let next = order(&shared, depth + 1);
+            assert!((0..samples as usize).all(|s| next[s] == here[(s + 1) % samples as usize]), "{here:?} {next:?}");
+            here.sort_unstable();
+            assert_eq!(here, (0..samples).collect::<Vec<u32>>());
+        }
+        let (here, next) = (order(&own, 0), order(&own, 1));
+        assert!((0..samples as usize).any(|s| next[s] != here[(s + 1) % samples as usize]), "the control");
     }
 
     #[test]

@@ -89,6 +89,7 @@ shader_files![
     "shading/microfacet/microfacet.wgsl",
     "shading/microfacet/plastic.wgsl",
     "shading/microfacet/principled_layers.wgsl",
+    "shading/microfacet/rough_diffuse.wgsl",
     "shading/microfacet/sheen.wgsl",
     "shading/microfacet/spectral_dielectric.wgsl",
     "shading/microfacet/thin_film.wgsl",

@@ -320,6 +320,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("VARYING_LIGHTS").requires(&["EMISSION", "LIGHTS"]),
     // Some weight of a blend depends on the angle from which it is seen.
     switch("WEIGHTS_BY_ANGLE").requires(&["BLENDS"]),
+    // Some weight of a blend depends on the direction of the surface's normal.
+    switch("WEIGHTS_BY_DIRECTION").requires(&["BLENDS"]),
     switch("WEIGHTS_BY_SIDE").requires(&["BLENDS"]),
     switch("WEIGHTS_BY_VIEWER").requires(&["BLENDS"]),
     switch("WORLEY").requires(&["PROCEDURAL_TEXTURES"]),

@@ -36,7 +36,7 @@ fn varying_radiance(light: u32, point: ShapePoint, wo: vec3<f32>) -> Spectrum {
         own_normal = mapped_normal(material, kind, first, own_normal, point, coordinates);
     }
     let shading_normal = shading_normal_towards(own_normal, select(-point.normal, point.normal, front), wo);
-    return material_emission(material, seen_by_light(clamp(dot(wo, shading_normal), 0.0, 1.0), front), coordinates);
+    return material_emission(material, seen_by_light(clamp(dot(wo, shading_normal), 0.0, 1.0), front, shading_normal), coordinates);
 }
 
 // Draws a point of a sphere by its emission map.
@@ -72,6 +72,7 @@ fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf:
     let inside = dot(to_center, to_center) <= l1.w * l1.w;
     let outward = select(-half_chord, half_chord, inside) * light_sample.wi - across;
     var cosine = clamp(half_chord / l1.w, 0.0, 1.0);
+    var shading_normal = select(outward, -outward, inside) / l1.w;
     var uv = vec2<f32>(0.0);
     let first = bitcast<u32>(light_word(light, 3u).w);
     if HAS_ATTRIBUTES && first != NONE {
@@ -84,8 +85,9 @@ fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf:
         point.normal = normal;
         let mapped = mapped_normal(material, KIND_SPHERE, first, vec3<f32>(0.0), point, only_coordinates(uv));
         let wo = -light_sample.wi;
-        cosine = clamp(dot(shading_normal_towards(mapped, select(normal, -normal, inside), wo), wo), 0.0, 1.0);
+        shading_normal = shading_normal_towards(mapped, select(normal, -normal, inside), wo);
+        cosine = clamp(dot(shading_normal, wo), 0.0, 1.0);
     }
-    light_sample.radiance *= material_emission(material, seen_by_light(cosine, !inside), only_coordinates(uv));
+    light_sample.radiance *= material_emission(material, seen_by_light(cosine, !inside, shading_normal), only_coordinates(uv));
     return light_sample;
 }

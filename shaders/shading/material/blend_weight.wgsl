@@ -1,7 +1,8 @@
 // The weights of a blend: one vec4 of the tables each,
-//   (kind and flags; value, power or index of refraction; threshold; texture or NONE)
+//   (kind and flags; value, power or index of refraction; threshold; texture, axis or NONE)
 #import core/layout.wgsl
 #import core/math.wgsl
+#import core/octahedron.wgsl
 #import geometry/scene.wgsl
 #import shading/texture/coordinates.wgsl
 #import shading/material/seen.wgsl
@@ -41,6 +42,12 @@ fn blend_weight(index: u32, seen: Seen, uv: TextureCoordinates) -> f32 {
             if HAS_WEIGHTS_BY_VIEWER {
                 w = select(0.0, 1.0, seen.by_camera);
             }
+        }
+        case WEIGHT_UP: {
+#if WEIGHTS_BY_DIRECTION
+            let along = dot(seen.normal, octahedron_direction(unpack2x16snorm(bitcast<u32>(h.w))));
+            w = select(pow(along, h.y), 0.0, along <= 0.0);
+#endif
         }
         case WEIGHT_TEXTURE, WEIGHT_CHANNEL: {
             if HAS_TEXTURES {

@@ -109,7 +109,8 @@ fn own_emission(material: u32, front: bool, uv: TextureCoordinates) -> Spectrum 
 // The lobe scatters in all directions above the surface, mostly evenly.
 fn lobe_is_broad(lobe: Lobe) -> bool {
     let kind = lobe_kind(lobe);
-    return kind == DIFFUSE || kind == PLASTIC || kind == ROUGH_PLASTIC;
+    let is_rough_diffuse = kind == OREN_NAYAR || kind == QUALITATIVE_OREN_NAYAR || kind == ENERGY_PRESERVING_OREN_NAYAR;
+    return kind == DIFFUSE || is_rough_diffuse || kind == DUST || kind == PLASTIC || kind == ROUGH_PLASTIC;
 }
 
 fn lobe_kind(lobe: Lobe) -> u32 {

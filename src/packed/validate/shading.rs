@@ -60,9 +60,10 @@ impl PackedScene {
         }
         for (index, weight) in materials.weights.iter().enumerate() {
             let kind = weight.kind_and_flags & 255;
-            let known = kind <= WeightKind::Camera as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
-            let looks_up = [WeightKind::Texture, WeightKind::Channel].iter().any(|looking| *looking as u32 == kind);
-            if !known || looks_up != (weight.texture != NONE) {
+            let known = kind <= WeightKind::Up as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
+            let is_axis = kind == WeightKind::Up as u32;
+            let is_beyond = weight.looks_up() && weight.texture as usize >= self.textures.textures.len();
+            if !known || is_beyond || (!is_axis && weight.looks_up() != (weight.texture != NONE)) {
                 return Err(format!("weight {index} is of kind {:#x} and has texture {}", weight.kind_and_flags, weight.texture));
             }
         }

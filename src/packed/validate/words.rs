@@ -5,7 +5,7 @@
 use std::mem::offset_of;
 
 use crate::packed::attributes::TriangleAttributes;
-use crate::packed::blend_weight::PackedBlendWeight;
+use crate::packed::blend_weight::{PackedBlendWeight, WeightKind};
 use crate::packed::bvh4::Node;
 use crate::packed::instance::PackedInstance;
 use crate::packed::layers::PackedLayer;
@@ -183,7 +183,7 @@ const LAYER: [(usize, Word); 4] = [
 ];
 
 const WEIGHT: [(usize, Word); 2] =
-    [(word!(PackedBlendWeight, kind_and_flags), Checked), (word!(PackedBlendWeight, texture), Optional(Array::Textures))];
+    [(word!(PackedBlendWeight, kind_and_flags), Checked), (word!(PackedBlendWeight, texture), CheckedIn(is_of_no_axis))];
 
 const LIGHT: [(usize, Word); 7] = [
     (word!(PackedLight, kind_and_flags), Checked),
@@ -235,6 +235,11 @@ fn has_values(texture: &[u32]) -> bool {
 
 fn is_perlin(texture: &[u32]) -> bool {
     texture[word!(PackedTexture, kind_and_flags)] & 255 == PackedTextureKind::Perlin as u32
+}
+
+/// Any other weight names a texture, or none.
+fn is_of_no_axis(weight: &[u32]) -> bool {
+    weight[word!(PackedBlendWeight, kind_and_flags)] & 255 != WeightKind::Up as u32
 }
 
 fn has_inner_children(node: &[u32]) -> bool {

@@ -25,7 +25,16 @@ macro_rules! lobes {
         impl Lobe {
             /// The lobe scatters in all directions above the surface, mostly evenly.
             pub fn is_broad(&self) -> bool {
-                matches!(self, Self::Diffuse(_) | Self::Plastic(_) | Self::RoughPlastic(_))
+                matches!(
+                    self,
+                    Self::Diffuse(_)
+                        | Self::OrenNayar(_)
+                        | Self::QualitativeOrenNayar(_)
+                        | Self::EnergyPreservingOrenNayar(_)
+                        | Self::Dust(_)
+                        | Self::Plastic(_)
+                        | Self::RoughPlastic(_)
+                )
             }
         }
 

@@ -1,5 +1,7 @@
 //! Parameters of materials at one hit.
 
+use glam::DVec3;
+
 use super::view::View;
 use crate::reference::intersect::Surface;
 use crate::scene::{ColorInput, Scene};
@@ -13,6 +15,8 @@ pub struct Lookup<'a> {
     pub uv: Coordinates,
     /// Cosine of the angle between wo and the shading normal, in [0, 1].
     pub cosine: f64,
+    /// The shading normal on wo's side.
+    pub normal: DVec3,
     /// wo is on the front side.
     pub front: bool,
     /// The camera sees it, and nothing in between.
@@ -25,6 +29,7 @@ impl<'a> Lookup<'a> {
             scene,
             uv: surface.coordinates(),
             cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0),
+            normal: view.normal(),
             front: view.front,
             by_camera: surface.by_camera,
         }

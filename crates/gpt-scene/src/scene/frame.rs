@@ -52,6 +52,10 @@ impl Scene {
             light.set(&track.taken_along(animation, frame));
             light.check().map_err(|message| of(format!("light[{}] ({})", track.light, light.kind_name()), message))?;
         }
+        for track in &animation.materials {
+            let rest = &self.materials[track.material];
+            scene.materials[track.material] = track.at(rest, frame);
+        }
         Ok(scene)
     }
 }
@@ -73,7 +77,7 @@ impl Scene {
             && self.shapes.iter().zip(&other.shapes).all(|(shape, other)| shape.has_mesh_of(other))
     }
 
-    /// True if all shapes stand and move, and all lights shine, as in another frame of the same scene, and the camera moves or rests as there.
+    /// True if all shapes stand and move, all lights shine and all materials look as in another frame of the same scene, and the camera moves or rests as there.
     pub fn shapes_stand_as_in(&self, other: &Self) -> bool {
         let same = |(shape, other): (&Shape, &Shape)| shape.transform == other.transform && shape.motion == other.motion;
         self.camera.shutter == other.camera.shutter
@@ -82,6 +86,8 @@ impl Scene {
             && self.shapes.iter().zip(&other.shapes).all(same)
             && self.lights.len() == other.lights.len()
             && self.lights.iter().zip(&other.lights).all(|(light, other)| light.shines_as(other))
+            && self.materials.len() == other.materials.len()
+            && self.materials.iter().zip(&other.materials).all(|(material, other)| material.looks_like(other))
     }
 }
 

@@ -51,7 +51,7 @@ pub use light::{
 pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, FlatLayer, LayerModel, LayerStack, LobeKind,
     LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets,
-    PlasticInterface, Principled, Slab, Subsurface, ThinFilm,
+    PlasticInterface, Principled, RoughDiffuseModel, Slab, Subsurface, ThinFilm,
 };
 pub use media::{Filling, Media};
 pub use medium::{Medium, MediumId, Phase, PhaseKind, PhaseLobe};

@@ -61,8 +61,16 @@ impl Scene {
             InvalidScene { part, message }
         })?;
         let textured = self.materials_that(Material::uses_texture);
+        let open = self.openness();
+        let mut kinds: Vec<[u64; 2]> = open.iter().flatten().map(|kind| kind.map(f64::to_bits)).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        if kinds.len() > 2 {
+            let message = "weights by openness (`open`) of a scene have at most two pairs of `distance` and `power`".into();
+            return Err(InvalidScene { part: "materials".into(), message });
+        }
         for shape in &self.shapes {
-            of(|| shape.label.clone(), self.check_shape(shape, &textured))?;
+            of(|| shape.label.clone(), self.check_shape(shape, &textured).and_then(|()| check_openness(shape, &open, true)))?;
         }
         self.validate_instances(&textured)?;
         for (index, entry) in self.lights.iter().enumerate() {
@@ -75,13 +83,37 @@ impl Scene {
     fn validate_instances(&self, textured: &[bool]) -> Result<(), InvalidScene> {
         for group in &self.groups {
             for shape in &group.shapes {
-                of(|| shape.label.clone(), self.check_shape(shape, textured))?;
+                let checked = self.check_shape(shape, textured).and_then(|()| check_openness(shape, &self.openness(), false));
+                of(|| shape.label.clone(), checked)?;
             }
             of(|| format!("group `{}`", group.name), self.check_group(group))?;
         }
         let (emits, balls) = (self.materials_that(|material| material.emission.is_some()), self.balls());
         let check = |entry| self.check_instances(entry, textured, &emits, &balls);
         self.instances.iter().try_for_each(|entry| of(|| entry.label.clone(), check(entry)))
+    }
+
+    /// The distances and powers of the weights by openness in each material, at any depth of blends and stacks.
+    pub fn openness(&self) -> Vec<Vec<[f64; 2]>> {
+        let of_weight = |material: &Material| match &material.kind {
+            MaterialKind::Blend { weight, .. } => weight.openness(),
+            _ => None,
+        };
+        let is_used = self.materials.iter().any(|material| of_weight(material).is_some());
+        let all_of = |id: MaterialId| {
+            let (mut found, mut to_visit, mut visited) = (Vec::new(), vec![id], std::collections::BTreeSet::new());
+            while let Some(id) = to_visit.pop().filter(|_| is_used) {
+                if visited.insert(id) {
+                    found.extend(of_weight(&self.materials[id]));
+                    to_visit.extend_from_slice(self.materials[id].parts());
+                    if let MaterialKind::Layered(layers) = &self.materials[id].kind {
+                        to_visit.extend_from_slice(&layers.interfaces);
+                    }
+                }
+            }
+            found
+        };
+        (0..self.materials.len()).map(all_of).collect()
     }
 
     fn medium_exists(&self, id: MediumId) -> Check {
@@ -173,6 +205,8 @@ impl Scene {
                 BlendWeight::Threshold { tau, of } if tau.is_finite() => of,
                 BlendWeight::Front | BlendWeight::Camera => return Ok(()),
                 BlendWeight::Constant { value } if (0.0..=1.0).contains(value) => return Ok(()),
+                BlendWeight::Up { axis, power } if is_positive(*power) && (axis.length() - 1.0).abs() < 1e-6 => return Ok(()),
+                BlendWeight::Open { distance, power } if is_positive(*power) && is_positive(*distance) => return Ok(()),
                 BlendWeight::Facing { power } if power.is_finite() && *power >= 0.0 => return Ok(()),
                 BlendWeight::Fresnel { ior, .. } if is_positive(*ior) => return Ok(()),
                 _ => return Err("a number of the blend's weight is out of its range".into()),
@@ -248,6 +282,23 @@ impl Scene {
         }
         Ok(())
     }
+}
+
+/// Weights by openness are baked at the vertices of a mesh that stands in one place, in its second texture coordinates.
+fn check_openness(shape: &Shape, open: &[Vec<[f64; 2]>], stands_alone: bool) -> Check {
+    if !shape.materials().any(|id| open.get(id).is_some_and(|kinds| !kinds.is_empty())) {
+        return Ok(());
+    }
+    let Geometry::Mesh(mesh) = &shape.geometry else {
+        return Err("a weight by openness (`open`) is computed at the vertices of meshes, and this is none".into());
+    };
+    if !stands_alone {
+        return Err("a weight by openness (`open`) depends on what is around a mesh, which instances do not share".into());
+    }
+    if !mesh.second_uvs.is_empty() {
+        return Err("a weight by openness (`open`) takes the place of second texture coordinates, which this mesh has".into());
+    }
+    Ok(())
 }
 
 /// Checks that pictures can be taken with the camera.

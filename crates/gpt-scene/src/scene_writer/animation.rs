@@ -1,24 +1,27 @@
 //! `[animation]`, `[[node]]`, and the keyframes of whatever has some.
 
+use std::collections::BTreeMap;
+
 use glam::{DAffine3, DVec3};
 
+use super::material;
 use super::shape::transform_step;
 use crate::load::file::strength_key;
-use crate::load::file::writer::{Names, colour, direction, line, list, number, table, text, vector};
+use crate::load::file::writer::{Names, Writer, colour, direction, line, list, number, table, text, vector};
 use crate::scene::animation::{
-    CameraTrack, Curve, FRAMES_PER_SECOND, Interpolation, LightTrack, Node, ShapeTrack, TransformTrack,
+    CameraTrack, Curve, FRAMES_PER_SECOND, Interpolation, LightTrack, MaterialTrack, Node, ShapeTrack, TransformTrack,
 };
-use crate::scene::{Animation, Light, Projection, TransformStep};
+use crate::scene::{Animation, Light, Material, Projection, TransformStep};
 
 /// A value that keyframes state under a key, by the frames at which they do.
 struct Written {
-    key: &'static str,
+    key: String,
     at: Vec<(f64, String)>,
 }
 
 impl Written {
-    fn of<T>(key: &'static str, curve: &Curve<T>, value: impl Fn(&T) -> String) -> Self {
-        Self { key, at: curve.keys.iter().map(|key| (key.frame, value(&key.value))).collect() }
+    fn of<T>(key: &str, curve: &Curve<T>, value: impl Fn(&T) -> String) -> Self {
+        Self { key: key.to_owned(), at: curve.keys.iter().map(|key| (key.frame, value(&key.value))).collect() }
     }
 }
 
@@ -77,6 +80,40 @@ pub fn light(track: &LightTrack, light: &Light, nodes: &Names) -> String {
     taken_along("node", track.node, nodes) + &keyframes(&written, track.position.interpolation)
 }
 
+/// Keyframes of a material.
+pub fn material(track: &MaterialTrack, rest: &Material, writer: &Writer<'_>) -> String {
+    let form = track.with_all_numbers(rest);
+    let mut written: BTreeMap<String, Vec<(f64, String)>> = BTreeMap::new();
+    let mut frames: Vec<f64> = track.frames().collect();
+    frames.sort_by(f64::total_cmp);
+    frames.dedup();
+    for frame in frames {
+        let mut numbers = form.numbers();
+        let mut nudged = numbers.clone();
+        for (number, curve) in &track.numbers {
+            if let Some(key) = curve.keys.iter().find(|key| key.frame == frame) {
+                (numbers[*number], nudged[*number]) = (key.value, nudge(key.value));
+            }
+        }
+        let at = material::keyed(&form.with_numbers(&numbers), writer);
+        // Keys that stand for numbers with a key at this frame change with them. One that has its default is not written, so it is a little off.
+        for (key, other) in material::keyed(&form.with_numbers(&nudged), writer) {
+            if at.get(&key) != Some(&other) {
+                let value = at.get(&key).unwrap_or(&other).clone();
+                written.entry(key).or_default().push((frame, value));
+            }
+        }
+    }
+    let interpolation = track.numbers.first().map_or(Interpolation::default(), |(_, curve)| curve.interpolation);
+    let written: Vec<Written> = written.into_iter().map(|(key, at)| Written { key, at }).collect();
+    keyframes(&written, interpolation)
+}
+
+/// A number that is hardly another, in the ranges of shares and amounts.
+fn nudge(value: f64) -> f64 {
+    if value.abs() < 0.5 { value + 1e-13 } else { value * (1.0 - 1e-13) }
+}
+
 fn taken_along(key: &str, node: Option<usize>, nodes: &Names) -> String {
     node.map_or_else(String::new, |node| line(key, &nodes.quoted(node)))
 }
@@ -100,7 +137,7 @@ fn keyframes(written: &[Written], interpolation: Interpolation) -> String {
         return String::new();
     }
     let keyframe = |frame: &f64| {
-        let stated = written.iter().flat_map(|written| written.at.iter().map(|(at, value)| (written.key, at, value)));
+        let stated = written.iter().flat_map(|written| written.at.iter().map(|(at, value)| (written.key.as_str(), at, value)));
         let values = stated.filter(|(_, at, _)| *at == frame).map(|(key, _, value)| (key, value.clone()));
         table(std::iter::once(("frame", number(*frame))).chain(values))
     };

@@ -1,9 +1,12 @@
 //! `[[material]]`
 
+use std::collections::BTreeMap;
+
+use super::animation;
 use super::needed::named_texture;
 use crate::load::file::write_kind;
 use crate::load::file::writer::{Writer, flag, line, number, text};
-use crate::scene::{Emission, MaterialId, MaterialKind, Relief};
+use crate::scene::{Emission, Material, MaterialId, MaterialKind, Relief};
 
 pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
     let material = &writer.scene.materials[id];
@@ -23,8 +26,8 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
     let emits = matches!(material.kind, MaterialKind::Emissive);
     match material.emission {
         Some(Emission { radiance, two_sided }) => {
-            let [radiance_key, sides_key] = if emits { ["radiance", "two_sided"] } else { ["emission", "emission_two_sided"] };
-            out += &writer.input(radiance_key, &radiance);
+            let sides_key = if emits { "two_sided" } else { "emission_two_sided" };
+            out += &writer.input(radiance_key(&material.kind), &radiance);
             if two_sided {
                 out += &line(sides_key, "true");
             }
@@ -38,5 +41,19 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
     if !material.two_sided {
         out += &line("two_sided", "false");
     }
+    let tracks = writer.scene.animation.materials.iter().filter(|track| track.material == id);
+    tracks.for_each(|track| out += &animation::material(track, material, writer));
     out
+}
+
+/// The key of the light that a material emits.
+fn radiance_key(kind: &MaterialKind) -> &'static str {
+    if matches!(kind, MaterialKind::Emissive) { "radiance" } else { "emission" }
+}
+
+/// The keys that keyframes may state, each with its value.
+pub(super) fn keyed(material: &Material, writer: &Writer<'_>) -> BTreeMap<String, String> {
+    let radiance = material.emission.map(|emission| writer.input(radiance_key(&material.kind), &emission.radiance));
+    let lines = write_kind(&material.kind, writer) + &radiance.unwrap_or_default();
+    lines.lines().filter_map(|line| line.split_once(" = ")).map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
 }

@@ -105,6 +105,8 @@ fn texture_of_weight(weight: &BlendWeight) -> Option<TextureId> {
         | BlendWeight::Facing { .. }
         | BlendWeight::Fresnel { .. }
         | BlendWeight::Front
-        | BlendWeight::Camera => None,
+        | BlendWeight::Camera
+        | BlendWeight::Up { .. }
+        | BlendWeight::Open { .. } => None,
     }
 }

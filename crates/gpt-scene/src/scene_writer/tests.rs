@@ -92,6 +92,29 @@ fn every_light_and_camera_comes_back() {
     }
 }
 
+/// Each key by itself, some with their defaults, and none of them lost where it does not change.
+#[test]
+fn keyframes_of_materials_come_back() {
+    let keyed = scene(&format!(
+        "{}{SPHERE}{POINT_LIGHT}",
+        "[[material]]\nname = \"lacquer\"\ntype = \"principled\"\nbase_color = 0.5\nroughness = 0.5\nclearcoat = 1\ninterpolation = \"smooth\"\n\
+         keyframes = [{ frame = 0, roughness = 0.5, clearcoat = 0 }, { frame = 5, roughness = 0.5 },\n\
+         { frame = 10, roughness = 0.9, clearcoat = 1, emission = [0, 1, 2] }, { frame = 12, emission = 0 }]\n\
+         [[material]]\nname = \"probe\"\ntype = \"blend\"\nmaterials = [\"lacquer\", \"mirror\"]\nweight = { type = \"constant\", value = 1 }\n\
+         keyframes = [{ frame = 0, weight = { type = \"constant\", value = 1 } }, { frame = 8, weight = { type = \"constant\", value = 0.25 } }]\n"
+    ));
+    let read = round_trip(&keyed);
+    assert_eq!(read.animation.frames(), Some([0.0, 12.0]));
+    for frame in [0.0, 2.5, 7.0, 9.5, 11.0, 13.0] {
+        let [before, after] = [&keyed, &read].map(|scene| scene.at_frame(frame).expect("a frame").materials);
+        for (before, after) in before.iter().zip(&after) {
+            let near = before.numbers().iter().zip(after.numbers()).all(|(a, b)| (a - b).abs() < 1e-9);
+            assert!(near && before.has_form_of(after), "{frame}: {before:?} {after:?}");
+        }
+    }
+    assert!(!keyed.at_frame(2.5).expect("a frame").materials[2].looks_like(&keyed.materials[2]), "the control");
+}
+
 /// Names that are empty or the same twice, as importers may bring them, are told apart.
 #[test]
 fn names_need_not_be_good() {

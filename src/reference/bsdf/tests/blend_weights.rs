@@ -10,7 +10,7 @@ fn at(blend_weight: &BlendWeight, cosine: f64) -> f64 {
     scene.textures.push(Texture::new("mask", TextureKind::Checker { a, b, scale: [2.0, 2.0] }));
     // The left lower field is a, its right neighbour b.
     let uv = if cosine < 0.5 { DVec2::new(0.1, 0.1) } else { DVec2::new(0.6, 0.1) };
-    weight(blend_weight, &Lookup { scene: &scene, uv: uv.into(), cosine, front: true, by_camera: false })
+    weight(blend_weight, &Lookup { scene: &scene, uv: uv.into(), cosine, normal: DVec3::Z, front: true, by_camera: false })
 }
 
 fn reverse(of: BlendWeight) -> BlendWeight {
@@ -34,6 +34,9 @@ fn heuristics_have_their_formulas() {
         close(BlendWeight::Fresnel { ior: 2.0, exact: false }, 1.0 - (1.0 / 9.0 + 8.0 / 9.0 * (1.0 - cosine).powi(5)));
         close(BlendWeight::Fresnel { ior: 2.0, exact: true }, 1.0 - dielectric_reflectance(cosine, 2.0));
         let luminance = 0.2126 * 0.2 + 0.7152 * 0.4 + 0.0722 * 0.6;
+        // The normal is (0, 0, 1).
+        close(BlendWeight::Up { axis: DVec3::new(0.6, 0.0, 0.8), power: 2.0 }, 0.64);
+        close(BlendWeight::Up { axis: -DVec3::Z, power: 0.5 }, 0.0);
         close(BlendWeight::Texture { texture: 0 }, if cosine < 0.5 { luminance } else { 1.0 });
         let facing = || BlendWeight::Facing { power: 1.0 };
         close(reverse(facing()), 1.0 - cosine);

@@ -65,7 +65,7 @@ fn rough_glass_of_ior_one_is_not_there() {
         dispersion: None,
     };
     let scene = Scene::default();
-    let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false };
+    let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, normal: DVec3::Z, front: true, by_camera: false };
     let lobe = Lobe::of(&kind, &lookup).expect("glass scatters");
     let view = view(50.0, 0.0);
     let sample = single(lobe, view).sample(0.3, 0.2, 0.9).expect("light goes on");

@@ -18,7 +18,7 @@ fn brushed(texel: DVec3, directed: bool, keys: &str) -> Lobe {
     }
     Lobe::of(
         &scene.materials[0].kind,
-        &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false },
+        &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, normal: DVec3::Z, front: true, by_camera: false },
     )
     .expect("it scatters")
 }

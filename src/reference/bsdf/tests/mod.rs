@@ -10,6 +10,7 @@ mod facets;
 mod fresnel;
 mod mixtures;
 mod plastic;
+mod rough_diffuse;
 mod sides;
 mod spectral;
 mod views;
@@ -64,7 +65,7 @@ fn principled(keys: &str) -> Lobe {
          [[material]]\nname = \"m\"\ntype = \"principled\"\n{keys}"
     );
     let scene = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
-    let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false };
+    let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, normal: DVec3::Z, front: true, by_camera: false };
     Lobe::of(&scene.materials[0].kind, &lookup).expect("it scatters")
 }
 
@@ -158,7 +159,10 @@ fn examples() -> Vec<(String, Lobe, f64)> {
         let scene = load_toml_str(&text, "example.toml", Path::new("")).unwrap_or_else(|error| panic!("{name}: {error}"));
         let kind = &scene.materials.last().expect("it has the example").kind;
         assert_eq!(kind.type_name(), name);
-        let lobe = Lobe::of(kind, &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true, by_camera: false });
+        let lobe = Lobe::of(
+            kind,
+            &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, normal: DVec3::Z, front: true, by_camera: false },
+        );
         let parameters = kind.lobe();
         assert_eq!(lobe.map(|lobe| lobe.kind()), parameters.as_ref().map(|parameters| parameters.lobe), "{name}");
         let parameters = parameters?;

@@ -14,7 +14,7 @@ use glam::{DAffine3, DMat3};
 pub use curve::{Curve, Interpolation, Key, Moment, Turn};
 pub use deformation::{Deformation, DeformationTrack, Influences, Joint, MorphTarget};
 pub use moving::{motion_between, unevenness};
-pub use track::{CameraTrack, LightTrack, Node, ShapeTrack, TransformTrack};
+pub use track::{CameraTrack, LightTrack, MaterialTrack, Node, ShapeTrack, TransformTrack};
 
 use super::camera::{Camera, EXPOSURE_STRETCHES};
 use super::light_at::LightAt;
@@ -31,6 +31,7 @@ pub struct Animation {
     pub shapes: Vec<ShapeTrack>,
     pub camera: Option<CameraTrack>,
     pub lights: Vec<LightTrack>,
+    pub materials: Vec<MaterialTrack>,
     /// Meshes that are deformed, in the order of their shapes.
     pub deformations: Vec<DeformationTrack>,
 }
@@ -43,6 +44,7 @@ impl Default for Animation {
             shapes: Vec::new(),
             camera: None,
             lights: Vec::new(),
+            materials: Vec::new(),
             deformations: Vec::new(),
         }
     }
@@ -66,6 +68,7 @@ impl Animation {
         let tracks = nodes.chain(self.shapes.iter().filter_map(|shape| shape.track.as_ref()));
         let frames = tracks.flat_map(TransformTrack::frames).chain(self.camera.iter().flat_map(CameraTrack::frames));
         let frames = frames.chain(self.lights.iter().flat_map(LightTrack::frames));
+        let frames = frames.chain(self.materials.iter().flat_map(MaterialTrack::frames));
         let targets = self.deformations.iter().flat_map(|track| &track.deformation.targets);
         let frames = frames.chain(targets.flat_map(|target| target.weight.keys.iter().map(|key| key.frame)));
         frames.fold(None, |ends, frame| {

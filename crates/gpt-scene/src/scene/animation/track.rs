@@ -5,6 +5,8 @@ use glam::{DAffine3, DQuat, DVec3};
 use super::curve::{Curve, Moment, Turn};
 use crate::scene::camera::{Camera, Projection};
 use crate::scene::light_at::LightAt;
+use crate::scene::material::{Emission, Material};
+use crate::scene::texture::ColorInput;
 use crate::scene::transform::Transform;
 use crate::spectrum::Spectrum;
 
@@ -83,6 +85,42 @@ pub struct LightTrack {
     pub rotation: Curve<f64>,
     /// The node that takes it along.
     pub node: Option<usize>,
+}
+
+/// A material's keys, by the [numbers](Material::numbers) that they stand for. They take the place of those without a frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MaterialTrack {
+    /// Index among the scene's materials.
+    pub material: usize,
+    /// The material emits at some frame, on both sides where this is true: it has an emission then, perhaps a black one, among its numbers.
+    pub emits: Option<bool>,
+    /// The places of numbers, each with its keys.
+    pub numbers: Vec<(usize, Curve<f64>)>,
+}
+
+impl MaterialTrack {
+    /// The material, as it is without a frame, with all numbers that it has at some frame.
+    pub fn with_all_numbers(&self, rest: &Material) -> Material {
+        let black = |two_sided| Emission { radiance: ColorInput::grey(0.0), two_sided };
+        Material { emission: rest.emission.or(self.emits.map(black)), ..rest.clone() }
+    }
+
+    /// The material at a frame.
+    pub fn at(&self, rest: &Material, frame: f64) -> Material {
+        let form = self.with_all_numbers(rest);
+        let mut numbers = form.numbers();
+        for (number, curve) in &self.numbers {
+            numbers[*number] = curve.at(frame).unwrap_or(numbers[*number]);
+        }
+        let mut material = form.with_numbers(&numbers);
+        material.emission = material.emission.filter(|emission| emission.radiance != ColorInput::grey(0.0));
+        material
+    }
+
+    /// The frames of all its keys.
+    pub fn frames(&self) -> impl Iterator<Item = f64> {
+        self.numbers.iter().flat_map(|(_, curve)| curve.keys.iter().map(|key| key.frame))
+    }
 }
 
 impl LightTrack {

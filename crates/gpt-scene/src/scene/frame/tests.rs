@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::*;
 use crate::load::load_toml_str;
-use crate::scene::{EnvironmentRadiance, Light, Projection};
+use crate::scene::{BlendWeight, ColorInput, EnvironmentRadiance, Light, MaterialKind, Projection};
 use crate::spectrum::Spectrum;
 
 fn scene(more: &str) -> Scene {
@@ -157,4 +157,88 @@ fn lights_go_through_their_keys_and_are_taken_along() {
     let rest = scene.lights[0].delta().expect("a point light");
     assert_eq!((rest.position, rest.color), (DVec3::X, Spectrum::grey(2.0)));
     assert!(scene.at_frame(3.0).expect("a frame").shapes_stand_as_in(&scene.at_frame(3.0).expect("a frame")));
+}
+
+/// A scene of materials with keyframes.
+fn aging(materials: &str) -> Result<Scene, crate::load::SceneError> {
+    let text = "camera = { position = [0, 0, 5], look_at = [0, 0, 0], vfov = 40 }\n\
+        shape = [{ type = \"sphere\", center = [0, 0, 0], radius = 1, material = \"shown\" }]\n\
+        light = [{ type = \"point\", position = [1, 0, 5], intensity = 2 }]\n";
+    load_toml_str(&format!("{text}{materials}"), "aging", Path::new(""))
+}
+
+/// The colour, if it is no texture.
+fn constant(input: ColorInput) -> Spectrum {
+    let ColorInput::Constant(color) = input else { panic!("{input:?}") };
+    color
+}
+
+/// A key that a keyframe leaves out goes through those that state it: the exponent from 10 at frame 0 to 30 at frame 10, the colours by frame 4.
+#[test]
+fn materials_go_through_their_keys() {
+    let scene = aging(
+        "[[material]]\nname = \"shown\"\ntype = \"phong\"\ndiffuse = 0.9\nspecular = 0.1\nexponent = 10\nkeyframes = [\n\
+         { frame = 0, exponent = 10, diffuse = 0.9, specular = 0.1 }, { frame = 4, diffuse = [0.1, 0.3, 0.1], specular = 0.7 },\n\
+         { frame = 10, exponent = 30 }]\n",
+    )
+    .expect("the scene is valid");
+    assert_eq!(scene.animation.frames(), Some([0.0, 10.0]));
+    for (frame, colors, power) in [(2.0, [0.5, 0.6, 0.4], 14.0), (4.0, [0.1, 0.3, 0.7], 18.0), (12.0, [0.1, 0.3, 0.7], 30.0)] {
+        let at = scene.at_frame(frame).expect("a frame");
+        let MaterialKind::Phong { diffuse, specular, exponent } = at.materials[0].kind else { panic!("{:?}", at.materials[0]) };
+        let found = [constant(diffuse).r(), constant(diffuse).g(), constant(specular).r()];
+        assert!(found.iter().zip(colors).all(|(a, b)| (a - b).abs() < 1e-12), "{frame}: {found:?}");
+        assert!((constant(exponent).r() - power).abs() < 1e-12, "{frame}: {exponent:?}");
+        assert!(!at.shapes_stand_as_in(&scene), "it looks otherwise");
+    }
+    let rest = scene.at_frame(0.0).expect("a frame");
+    assert!(rest.shapes_stand_as_in(&scene.at_frame(-1.0).expect("a frame")));
+}
+
+/// Widths go evenly in their roots, weights in their numbers, and light comes out of darkness.
+#[test]
+fn roughness_weights_and_emission_have_keys() {
+    let scene = aging(
+        "[[material]]\nname = \"metal\"\ntype = \"conductor\"\npreset = \"gold\"\nroughness = 0.2\nopacity = 0.5\n\
+         keyframes = [{ frame = 0, roughness = 0.2 }, { frame = 10, roughness = 0.6, emission = 3 }, { frame = 0x14, emission = 0 }]\n\
+         [[material]]\nname = \"red\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+         [[material]]\nname = \"shown\"\ntype = \"blend\"\nmaterials = [\"metal\", \"red\"]\n\
+         weight = { type = \"threshold\", tau = 0, of = { type = \"facing\", power = 1 } }\n\
+         keyframes = [{ frame = 0, weight = { type = \"threshold\", tau = 0, of = { type = \"facing\", power = 1 } } },\n\
+         { frame = 10, weight = { type = \"threshold\", tau = 1, of = { type = \"facing\", power = 3 } } }]\n",
+    )
+    .expect("the scene is valid");
+    let at = scene.at_frame(5.0).expect("a frame");
+    let MaterialKind::Blend { ref weight, .. } = at.materials[2].kind else { panic!("a blend") };
+    let halfway = BlendWeight::Threshold { tau: 0.5, of: Box::new(BlendWeight::Facing { power: 2.0 }) };
+    assert_eq!(*weight, halfway);
+    // What is keyed is the metal, which a blend with nothing stands for.
+    let metal = at.materials[0].parts()[0];
+    let MaterialKind::Conductor { facets, .. } = &at.materials[metal].kind else { panic!("{:?}", at.materials[metal]) };
+    assert!((constant(facets.alpha).r() - 0.16).abs() < 1e-12, "{facets:?}");
+    let radiance =
+        |frame: f64| scene.at_frame(frame).expect("a frame").materials[metal].emission.map(|emission| emission.radiance);
+    assert_eq!(
+        [radiance(10.0), radiance(15.0), radiance(20.0)],
+        [Some(ColorInput::grey(3.0)), Some(ColorInput::grey(1.5)), None]
+    );
+    assert_eq!(scene.materials[metal].emission, None, "without a frame it is dark");
+}
+
+#[test]
+fn keyframes_change_numbers_alone() {
+    let diffuse = |keys: &str| aging(&format!("[[material]]\nname = \"shown\"\ntype = \"diffuse\"\nreflectance = 0.5\n{keys}"));
+    let texture = "[[texture]]\nname = \"tiles\"\ntype = \"checker\"\na = 0\nb = 1\nscale = [1, 1]\n";
+    for (keys, message) in [
+        ("keyframes = [{ frame = 0 }]", "states one of the keys"),
+        ("keyframes = [{ frame = 0, exponent = 3 }]", "exponent"),
+        ("keyframes = [{ frame = 0, reflectance = 1.5 }]", "reflectance"),
+        ("keyframes = [{ frame = 3, reflectance = 0.5 }, { frame = 3, reflectance = 1 }]", "the order of their frames"),
+        ("interpolation = \"step\"", "of which there are none"),
+        (&format!("keyframes = [{{ frame = 0, reflectance = {{ texture = \"tiles\" }} }}]\n{texture}"), "changes more"),
+    ] {
+        let error = diffuse(keys).expect_err(keys).to_string();
+        assert!(error.contains(message), "{keys}: {error}");
+    }
+    assert!(diffuse("keyframes = [{ frame = 0, reflectance = 1 }]").is_ok(), "the control");
 }

@@ -1,5 +1,8 @@
 //! The weight of each material in a blend.
 
+use glam::DVec3;
+
+use crate::math::octahedron;
 use crate::scene::image::Channel;
 use crate::scene::texture::TextureId;
 
@@ -22,6 +25,17 @@ pub enum BlendWeight {
     Front,
     /// w0 = 1 for rays of the camera that nothing has scattered, 0 for others and for light.
     Camera,
+    /// w0 = max(0, N·axis)^power, N the shading normal on the side that is seen and the axis of length 1, one of [`rounded_axis`].
+    Up {
+        axis: DVec3,
+        power: f64,
+    },
+    /// w0 = o^power, o the share of the directions over a surface, by their cosines, in which nothing is nearer than the distance: baked at the vertices
+    /// of meshes before a render, when a texture takes its place. Without that it is 1.
+    Open {
+        distance: f64,
+        power: f64,
+    },
     /// w0 = luminance of the texture.
     Texture {
         texture: TextureId,
@@ -43,13 +57,36 @@ pub enum BlendWeight {
     },
 }
 
+/// The direction as blends keep it: a place on an octahedron, of 16 bits a coordinate, which leads along the axes exactly and elsewhere within 10⁻⁴.
+pub fn rounded_axis(direction: DVec3) -> DVec3 {
+    octahedron::direction_at(octahedron::place_of(direction).map(|x| (x * AXIS_STEPS).round() / AXIS_STEPS))
+}
+
+/// Steps of a rounded axis' coordinate from 0 to 1: those of WGSL's `unpack2x16snorm`.
+pub const AXIS_STEPS: f64 = 32767.0;
+
 impl BlendWeight {
+    /// The distance and the power of a weight by openness, at some depth.
+    pub fn openness(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Open { distance, power } => Some([*distance, *power]),
+            Self::Reverse { of } | Self::Threshold { of, .. } => of.openness(),
+            _ => None,
+        }
+    }
+
     /// The weight comes from a texture at some depth.
     pub fn uses_texture(&self) -> bool {
         match self {
             Self::Texture { .. } | Self::Channel { .. } => true,
             Self::Reverse { of } | Self::Threshold { of, .. } => of.uses_texture(),
-            Self::Constant { .. } | Self::Facing { .. } | Self::Fresnel { .. } | Self::Front | Self::Camera => false,
+            Self::Constant { .. }
+            | Self::Facing { .. }
+            | Self::Fresnel { .. }
+            | Self::Front
+            | Self::Camera
+            | Self::Up { .. }
+            | Self::Open { .. } => false,
         }
     }
 }

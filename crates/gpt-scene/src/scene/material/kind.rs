@@ -23,6 +23,11 @@ pub enum MaterialKind {
     Glossy { reflectance: ColorInput, exponent: ColorInput },
     /// Modified Phong (Lafortune and Willems 1994).
     Phong { diffuse: ColorInput, specular: ColorInput, exponent: ColorInput },
+    /// Facets that Lambert's law holds for each, by Oren and Nayar (1994) or after them.
+    OrenNayar { reflectance: ColorInput, roughness: ColorInput, model: RoughDiffuseModel },
+    /// A thin layer of particles that scatter light once (Blinn 1982), above a Lambert surface of reflectance `base`. `albedo` is the share of light that a
+    /// particle scatters, `thickness` the optical one along the normal, and `anisotropy` the mean cosine of Henyey and Greenstein's phase function.
+    Dust { albedo: ColorInput, thickness: ColorInput, anisotropy: f64, base: ColorInput },
     /// A sheet that Lambert's law holds for on both sides: f = ρ/π for light from the side that is seen, τ/π for light from the other one.
     /// A sum ρ + τ of more than 1 divides both.
     DiffuseTransmission { reflectance: ColorInput, transmittance: ColorInput },
@@ -62,6 +67,17 @@ pub enum MaterialKind {
     Layered(Box<LayerStack>),
     /// The ray goes on as if nothing were there.
     Pass,
+}
+
+/// How facets that Lambert's law holds for are seen together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RoughDiffuseModel {
+    /// Oren and Nayar's whole model: facets mask, shadow and light each other, once.
+    Full,
+    /// Their simpler one, without light from facet to facet.
+    Qualitative,
+    /// Fujii's form of it, with the light that it loses given back (Portsmouth, Kutz and Hill 2025).
+    EnergyPreserving,
 }
 
 #[derive(Debug, Clone)]
@@ -182,6 +198,20 @@ impl MaterialKind {
                 color1: Some(specular),
                 roughness: Some(exponent),
                 ..LobeParameters::new(LobeKind::Phong, diffuse)
+            },
+            Self::OrenNayar { reflectance, roughness, model } => {
+                let lobe = match model {
+                    RoughDiffuseModel::Full => LobeKind::OrenNayar,
+                    RoughDiffuseModel::Qualitative => LobeKind::QualitativeOrenNayar,
+                    RoughDiffuseModel::EnergyPreserving => LobeKind::EnergyPreservingOrenNayar,
+                };
+                LobeParameters { roughness: Some(roughness), ..LobeParameters::new(lobe, reflectance) }
+            }
+            Self::Dust { albedo, thickness, anisotropy, base } => LobeParameters {
+                color1: Some(base),
+                roughness: Some(thickness),
+                further: parameters::Dust { anisotropy: ColorInput::grey(anisotropy) }.list(),
+                ..LobeParameters::new(LobeKind::Dust, albedo)
             },
             Self::DiffuseTransmission { reflectance, transmittance } => {
                 LobeParameters { color1: Some(transmittance), ..LobeParameters::new(LobeKind::DiffuseTransmission, reflectance) }

@@ -129,6 +129,8 @@ impl Scene {
         };
         match &self.materials[material].kind {
             MaterialKind::Diffuse { .. }
+            | MaterialKind::OrenNayar { .. }
+            | MaterialKind::Dust { .. }
             | MaterialKind::DiffuseTransmission { .. }
             | MaterialKind::Phong { .. }
             | MaterialKind::Plastic { .. } => 1.0,
@@ -208,8 +210,12 @@ impl Scene {
 fn depends_on_direction(weight: &BlendWeight) -> bool {
     match weight {
         BlendWeight::Reverse { of } | BlendWeight::Threshold { of, .. } => depends_on_direction(of),
-        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Front => true,
-        BlendWeight::Constant { .. } | BlendWeight::Camera | BlendWeight::Texture { .. } | BlendWeight::Channel { .. } => false,
+        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Front | BlendWeight::Up { .. } => true,
+        BlendWeight::Constant { .. }
+        | BlendWeight::Camera
+        | BlendWeight::Open { .. }
+        | BlendWeight::Texture { .. }
+        | BlendWeight::Channel { .. } => false,
     }
 }
 

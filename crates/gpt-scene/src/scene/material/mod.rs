@@ -6,6 +6,7 @@ pub mod dispersion;
 mod kind;
 mod layers;
 mod microfacets;
+mod numbers;
 mod parameters;
 mod plastic;
 pub mod principled;
@@ -15,12 +16,12 @@ pub mod thin_film;
 pub use albedo::{
     ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, FACET_KNEE, SHEEN_KNEE, SMALLEST_SHEEN_ROUGHNESS, sheen_distribution, sheen_lambda,
 };
-pub use blend_weight::BlendWeight;
+pub use blend_weight::{AXIS_STEPS, BlendWeight, rounded_axis};
 pub use dispersion::{Dispersion, iors};
 pub use kind::{
     ANISOTROPIC, BECKMANN, COAT_NORMAL_MAP, COAT_TEXEL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
-    DIFFUSE_TRANSMITS, DIRECTED, DISPERSED, FORMS, LobeParameters, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN,
-    SMALLEST_BEND, SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS, UNTINTED,
+    DIFFUSE_TRANSMITS, DIRECTED, DISPERSED, FORMS, LobeParameters, MaterialKind, NONLINEAR, RoughDiffuseModel, SEPARABLE_MASKING,
+    SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS, UNTINTED,
 };
 pub use layers::{FlatLayer, LayerModel, LayerStack, MOST_INTERFACES, Slab};
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};

@@ -22,6 +22,12 @@ macro_rules! material_table {
             Mirror mirror { Mirror mirror MIRROR Delta }
             Glossy glossy { Glossy glossy GLOSSY Hemisphere }
             Phong phong { Phong phong PHONG Hemisphere }
+            OrenNayar oren_nayar {
+                OrenNayar oren_nayar OREN_NAYAR Hemisphere
+                QualitativeOrenNayar qualitative_oren_nayar QUALITATIVE_OREN_NAYAR Hemisphere
+                EnergyPreservingOrenNayar energy_preserving_oren_nayar ENERGY_PRESERVING_OREN_NAYAR Hemisphere
+            }
+            Dust dust { Dust dust DUST Hemisphere [anisotropy: SignedScalar] }
             DiffuseTransmission diffuse_transmission { DiffuseTransmission diffuse_transmission DIFFUSE_TRANSMISSION Sphere }
             Glass glass {
                 Glass glass GLASS Delta

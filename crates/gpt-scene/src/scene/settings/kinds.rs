@@ -15,6 +15,8 @@ choices! {
         Halton = "halton",
         /// Owen-scrambled Sobol' sequence.
         Sobol = "sobol",
+        /// Study: strata for directions alone, in one random order for all surfaces of a path, entered one further at each.
+        SharedStrata = "shared_strata",
     }
 
     /// How light sampling and BSDF sampling are used.

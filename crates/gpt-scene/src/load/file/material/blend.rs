@@ -31,6 +31,7 @@ impl MaterialKeys for Keys {
         "materials = [\"red\", \"mirror\"]\nweight = { type = \"fresnel\", ior = 1.5, exact = true }",
         "materials = [\"red\", \"mirror\"]\nweight = { type = \"front\" }",
         "materials = [\"mirror\", \"red\"]\nweight = { type = \"camera\" }",
+        "materials = [\"mirror\", \"red\"]\nweight = { type = \"up\", axis = [1, 2, 0.5], power = 2 }",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {

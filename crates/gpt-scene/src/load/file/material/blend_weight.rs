@@ -1,5 +1,6 @@
 //! The weights of blends.
 
+use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -8,8 +9,9 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::ChannelName;
 use crate::load::file::reference::{NamesTextures, TextureName};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
-use crate::load::file::writer::{Writer, channel_name, number, table, text};
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number, Positive, Vector};
+use crate::load::file::writer::{Writer, channel_name, number, table, text, vector};
+use crate::scene::material::rounded_axis;
 use crate::scene::{BlendWeight, TextureId, TextureKind};
 
 /// The weight of a blend's first material.
@@ -22,6 +24,8 @@ pub enum BlendWeightEntry {
     Fresnel(FresnelWeight),
     Front(NoKeys),
     Camera(NoKeys),
+    Up(UpWeight),
+    Open(OpenWeight),
     Texture(TextureWeight),
     Reverse(ReverseWeight),
     Threshold(ThresholdWeight),
@@ -50,6 +54,26 @@ pub struct FresnelWeight {
     /// The dielectric equations instead of Schlick's approximation.
     #[serde(default)]
     pub exact: bool,
+}
+
+/// w0 = max(0, N·axis)^power: how much the surface faces a direction of the scene, N its normal on the side that is seen
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct UpWeight {
+    /// [0, 1, 0] when left out.
+    pub axis: Option<Located<Vector>>,
+    /// 1 when left out.
+    pub power: Option<Checked<Positive>>,
+}
+
+/// w0 = o^power, o the share of directions over the surface in which nothing is nearer than `distance`; of meshes, at whose vertices it is computed
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table with the key `distance`")]
+pub struct OpenWeight {
+    /// In scene units.
+    pub distance: Checked<Positive>,
+    /// 1 when left out.
+    pub power: Option<Checked<Positive>>,
 }
 
 /// "front": w0 = 1 where the front is seen, 0 from behind. "camera": w0 = 1 for rays of the camera that nothing has scattered, 0 for all others
@@ -96,7 +120,13 @@ impl NamesTextures for BlendWeightEntry {
         match self {
             Self::Texture(keys) => keys.texture.each_texture(visit),
             Self::Reverse(ReverseWeight { of }) | Self::Threshold(ThresholdWeight { of, .. }) => of.each_texture(visit),
-            Self::Constant(_) | Self::Facing(_) | Self::Fresnel(_) | Self::Front(_) | Self::Camera(_) => {}
+            Self::Constant(_)
+            | Self::Facing(_)
+            | Self::Fresnel(_)
+            | Self::Front(_)
+            | Self::Camera(_)
+            | Self::Up(_)
+            | Self::Open(_) => {}
         }
     }
 }
@@ -125,6 +155,11 @@ impl BlendWeightEntry {
             Self::Fresnel(keys) => BlendWeight::Fresnel { ior: ior_or_default(keys.ior), exact: keys.exact },
             Self::Front(NoKeys {}) => BlendWeight::Front,
             Self::Camera(NoKeys {}) => BlendWeight::Camera,
+            Self::Up(keys) => BlendWeight::Up {
+                axis: rounded_axis(keys.axis.as_ref().map_or(Ok(DVec3::Y), |axis| resolver.direction(axis))?),
+                power: keys.power.map_or(1.0, |power| power.0),
+            },
+            Self::Open(keys) => BlendWeight::Open { distance: keys.distance.0, power: keys.power.map_or(1.0, |power| power.0) },
             Self::Texture(keys) => keys.resolve(resolver)?,
             Self::Reverse(keys) => BlendWeight::Reverse { of: Box::new(keys.of.resolve(resolver)?) },
             Self::Threshold(keys) => BlendWeight::Threshold { tau: keys.tau.0, of: Box::new(keys.of.resolve(resolver)?) },
@@ -171,6 +206,8 @@ pub fn write(weight: &BlendWeight, writer: &Writer<'_>) -> String {
         BlendWeight::Fresnel { ior, exact } => ("fresnel", vec![("ior", number(*ior)), ("exact", exact.to_string())]),
         BlendWeight::Front => ("front", Vec::new()),
         BlendWeight::Camera => ("camera", Vec::new()),
+        BlendWeight::Up { axis, power } => ("up", vec![("axis", vector(*axis)), ("power", number(*power))]),
+        BlendWeight::Open { distance, power } => ("open", vec![("distance", number(*distance)), ("power", number(*power))]),
         BlendWeight::Texture { texture } => ("texture", vec![("texture", writer.textures.quoted(*texture))]),
         BlendWeight::Channel { texture, channel, factor } => {
             let name = ("texture", writer.textures.quoted(*texture));

@@ -102,7 +102,8 @@ macro_rules! material_keys {
         #[derive(Debug, Clone, Default, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         #[schemars(extend("dependentRequired" = {
-            "emission_two_sided": ["emission"], "normal_scale": ["normal_map"], "bump_scale": ["bump_map"]
+            "emission_two_sided": ["emission"], "normal_scale": ["normal_map"], "bump_scale": ["bump_map"],
+            "interpolation": ["keyframes"]
         }))]
         $(#[$doc])*
         pub struct Keys {
@@ -132,7 +133,66 @@ macro_rules! material_keys {
             pub opacity: Option<$crate::load::file::value::Located<$crate::load::file::material::opacity::Opacity>>,
             /// A `[[medium]]` that fills closed shapes of this material: it is behind their fronts.
             pub interior: Option<$crate::load::file::value::Located<String>>,
+            /// Keys of the material's own type, and `emission`, at frames (`--frame`, `--frames`, `--time`); without a frame the other keys hold.
+            #[schemars(extend("minItems" = 1))]
+            pub keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<Keyframe>>>>,
+            /// How keyframes lead from one to the next; "linear" when left out.
+            pub interpolation: Option<$crate::load::file::value::Located<$crate::load::file::keyframes::InterpolationName>>,
             $($(#[$last_doc])* pub $last: $last_type,)*
+        }
+
+        /// The material at a frame. Keys that it does not state go through the keyframes that do, or stay as the material has them.
+        #[derive(Debug, Clone, serde::Deserialize, schemars::JsonSchema)]
+        #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, emission = 2 }")]
+        #[schemars(inline, extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }], "minProperties" = 2))]
+        pub struct Keyframe {
+            /// Number of the frame, not necessarily a whole one; or `time`.
+            pub frame: Option<$crate::load::file::value::Number>,
+            /// Seconds after the start.
+            pub time: Option<$crate::load::file::value::Number>,
+            $($(#[$field_doc])* pub $field: Option<$type>,)*
+            /// Radiance the surface sends out by itself.
+            pub emission: Option<$crate::load::file::value::Located<
+                $crate::load::file::colour::Colour<$crate::load::file::value::NonNegative>,
+            >>,
+        }
+
+        impl $crate::load::file::material::keyframes::MaterialKeyframe for Keyframe {
+            fn times(&self) -> (Option<$crate::load::file::value::Number>, Option<$crate::load::file::value::Number>) {
+                (self.frame, self.time)
+            }
+
+            fn stated(&self) -> Vec<&'static str> {
+                let named = [$((stringify!($field), self.$field.is_some()),)* ("emission", self.emission.is_some())];
+                named.into_iter().filter(|(_, is_stated)| *is_stated).map(|(name, _)| name).collect()
+            }
+        }
+
+        impl $crate::load::file::material::keyframes::KeyedMaterial for Keys {
+            type Keyframe = Keyframe;
+
+            fn keyframes(&self) -> Option<&$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<Keyframe>>>> {
+                self.keyframes.as_ref()
+            }
+
+            fn interpolation(&self) -> Option<&$crate::load::file::value::Located<$crate::load::file::keyframes::InterpolationName>> {
+                self.interpolation.as_ref()
+            }
+
+            fn at(&self, keyframe: &Keyframe, chosen: &dyn Fn(&str) -> bool) -> Self {
+                let mut keys = self.clone();
+                $(if let Some(stated) = keyframe.$field.as_ref().filter(|_| chosen(stringify!($field))) {
+                    keys.$field = stated.clone();
+                })*
+                if let Some(stated) = keyframe.emission.as_ref().filter(|_| chosen("emission")) {
+                    keys.emission = Some(stated.clone());
+                }
+                keys
+            }
+
+            fn shared(&self) -> $crate::load::file::material::keys::CommonKeys<'_> {
+                self.common()
+            }
         }
 
         impl Keys {

@@ -6,13 +6,16 @@ pub mod conductor;
 pub mod diffuse;
 pub mod diffuse_transmission;
 pub mod dispersion;
+pub mod dust;
 pub mod emissive;
 pub mod glass;
 pub mod glossy;
+pub mod keyframes;
 mod keys;
 pub mod layered;
 pub mod mirror;
 pub mod opacity;
+pub mod oren_nayar;
 pub mod pass;
 pub mod phong;
 pub mod plastic;
@@ -30,6 +33,7 @@ use super::resolver::Resolver;
 use super::value::{Located, NonNegative};
 use super::writer::Writer;
 use crate::load::error::SceneError;
+use crate::scene::animation::MaterialTrack;
 use crate::scene::material::material_table;
 use crate::scene::{Emission, MaterialKind};
 
@@ -77,6 +81,11 @@ macro_rules! entries {
 
             pub fn two_sided(&self, resolver: &Resolver<'_>) -> Result<bool, SceneError> {
                 match self { $(Self::$material(keys) => keys.two_sided(&keys.common(), resolver),)* }
+            }
+
+            /// What its keyframes make of the material of this index.
+            pub fn track(&self, id: usize, resolver: &Resolver<'_>) -> Result<Option<MaterialTrack>, SceneError> {
+                match self { $(Self::$material(keys) => keyframes::track(&**keys, id, resolver),)* }
             }
 
             pub fn check_parts(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {

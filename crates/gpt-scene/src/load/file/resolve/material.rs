@@ -1,5 +1,7 @@
 //! `[[material]]`
 
+use std::sync::Arc;
+
 use crate::load::error::SceneError;
 use crate::load::file::material::MaterialEntry;
 use crate::load::file::reference::TextureName;
@@ -10,7 +12,7 @@ use crate::scene::{BlendWeight, Material, MaterialKind, Relief, Texture, Texture
 impl Resolver<'_> {
     pub(super) fn materials(&mut self, written: &[MaterialEntry]) -> Result<(), SceneError> {
         self.material_names = self.register("material", written.iter().map(|entry| entry.common().name))?;
-        for entry in written {
+        for (id, entry) in written.iter().enumerate() {
             let material = self.material(entry).and_then(|material| self.with_relief(material, entry));
             let material = material.and_then(|material| self.with_interior(material, entry));
             let name = || entry.common().name.value.clone();
@@ -25,6 +27,10 @@ impl Resolver<'_> {
                 interior: None,
             });
             self.scene.materials.push(material);
+            let track = entry.track(id, self);
+            if let Some(Some(track)) = self.note(track) {
+                Arc::make_mut(&mut self.scene.animation).materials.push(track);
+            }
         }
         let of_entry = self.make_transparent(written);
         if !self.errors.is_empty() {
@@ -84,6 +90,8 @@ impl Resolver<'_> {
                         interior: None,
                     };
                     self.scene.materials.extend([whole, nothing]);
+                    let animation = Arc::make_mut(&mut self.scene.animation);
+                    animation.materials.iter_mut().filter(|track| track.material == id).for_each(|track| track.material = count);
                     of_entry.extend([id, id]);
                 }
             }
