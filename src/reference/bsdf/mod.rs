@@ -22,6 +22,7 @@ mod mixture;
 mod null;
 mod phong;
 mod phong_glass;
+mod phong_lobe;
 mod plastic;
 mod principled;
 mod principled_layers;

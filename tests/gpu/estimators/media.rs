@@ -36,7 +36,7 @@ fn with(setting: &str) -> String {
     SCENE.replace("max_depth = 7", &format!("max_depth = 7, distance_sampling = \"{setting}\""))
 }
 
-/// Six ways by each of three ways to draw places.
+/// Eight ways by each of three ways to draw places.
 #[test]
 fn estimators_agree_within_media() {
     let ways = ["mis", "distance", "equiangular"].into_iter().enumerate().flat_map(|(index, setting)| {

@@ -15,6 +15,10 @@ choices! {
         Halton = "halton",
         /// Owen-scrambled Sobol' sequence.
         Sobol = "sobol",
+        /// Scrambled Hammersley set of as many points as there are samples per pixel: for comparison.
+        Hammersley = "hammersley",
+        /// Linear congruential generator, from a start of its own for each path: for comparison.
+        Congruential = "lcg",
     }
 
     /// How light sampling and BSDF sampling are used.
@@ -25,14 +29,20 @@ choices! {
         Nee = "nee",
         /// BSDF sampling alone.
         Bsdf = "bsdf",
+        /// At each place one of the two, chosen at random and weighed as by `mis`; a path that chooses next event estimation ends with it: for comparison.
+        Choose = "choose",
     }
 
     /// How multiple importance sampling weighs the two strategies (Veach 1997, section 9.2).
     pub enum MisHeuristic {
-        /// Power heuristic with β = 2.
+        /// Power heuristic: in proportion to the densities to the power of `heuristic_exponent`.
         Power = "power",
         /// Balance heuristic: in proportion to the densities.
         Balance = "balance",
+        /// Maximum heuristic: the larger density takes all.
+        Maximum = "maximum",
+        /// Cutoff heuristic: in proportion to the densities, but nothing for one that is less than `heuristic_cutoff` of the other.
+        Cutoff = "cutoff",
     }
 
     /// How the place is drawn where a medium scatters light.
@@ -51,6 +61,30 @@ choices! {
         Cosine = "cosine",
         /// One density in every direction.
         Uniform = "uniform",
+    }
+
+    /// Whether the cosine-power lobes of `glossy` and `phong` keep the cosine of the rendering equation (Honsdorf 2013, section 5.3).
+    pub enum PhongCosine {
+        /// The lobe's value times the cosine with the normal.
+        Kept = "kept",
+        /// The lobe's value alone: rims are brighter, and more light may leave than arrives.
+        Dropped = "dropped",
+    }
+
+    /// How directions of the cosine-power lobes of `glossy` and `phong` are drawn.
+    pub enum PhongSampling {
+        /// In proportion to the lobe.
+        Lobe = "lobe",
+        /// Without regard to the lobe, as over a diffuse surface: by `hemisphere`.
+        Hemisphere = "hemisphere",
+    }
+
+    /// What becomes of directions that the cosine-power lobes of `glossy` and `phong` have below the surface.
+    pub enum PhongHorizon {
+        /// They are lost, and with them their light.
+        Lost = "lost",
+        /// They are turned to their opposite, which is above (Honsdorf 2013, appendix A, listing 7).
+        Flipped = "flipped",
     }
 
     /// How a point on a sphere, a rectangle or a triangle that is a light is drawn.
