@@ -4,6 +4,7 @@
 import argparse
 
 import integral
+import study
 from measure import Way, be_quick, error, keep_errors, montage, record, references, samplers, seconds, show, table, write_numbers
 
 BSDF = Way("material sampling alone (`bsdf`)", ["--estimator", "bsdf"])
@@ -255,7 +256,10 @@ def smoke():
 
 FIGURES = {
     figure.__name__: figure
-    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers)
+    for figure in (
+        *(estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers),
+        *(study.choosing, study.heuristics, study.phong, study.sequences, study.densities, study.basics, study.dice),
+    )
 }
 
 
