@@ -29,6 +29,8 @@ enum Drawn {
     Disk(fn(f64, f64) -> DVec2),
     /// On the sphere of radius 1, z up.
     Sphere(Box<dyn Fn(f64, f64) -> DVec3>),
+    /// The Halton sequence in the unit square, of no random numbers at all.
+    Halton,
 }
 
 /// How a density is measured: a coordinate of a point, and the share of points for which it is at most so much.
@@ -124,7 +126,7 @@ fn panels() -> Vec<Panel> {
             share: Box::new(|x: f64| 1.0 - (1.0 - x).powi(2)),
         }),
     });
-    panels.push(Panel { name: "halton".to_owned(), drawn: Drawn::Square(DVec2::new), measured: None });
+    panels.push(Panel { name: "halton".to_owned(), drawn: Drawn::Halton, measured: None });
     panels
 }
 
@@ -143,6 +145,11 @@ fn numbers(panel: u32, point: u32) -> [f64; 2] {
     [0, 1].map(|axis| (f64::from(dimension_bits(dimension_bits(panel, axis), point)) + 0.5) / 4_294_967_296.0)
 }
 
+/// A point of the Halton sequence in the bases 2 and 3.
+fn halton(point: u32) -> DVec2 {
+    DVec2::from([0, 1].map(|dimension| f64::from(radical_inverse_bits(0, dimension, point)) / 4_294_967_296.0))
+}
+
 /// The mean of the coordinate, measured and predicted, and the largest deviation of a bin's count in standard deviations.
 fn compare(panel: u32, drawn: &Drawn, measured: &Measured) -> (f64, f64, f64) {
     let [low, high] = measured.range;
@@ -154,6 +161,7 @@ fn compare(panel: u32, drawn: &Drawn, measured: &Measured) -> (f64, f64, f64) {
         let value = (measured.of)(match drawn {
             Drawn::Square(map) | Drawn::Disk(map) => map(u, v).extend(0.0),
             Drawn::Sphere(map) => map(u, v),
+            Drawn::Halton => halton(point).extend(0.0),
         });
         sum += value;
         let bin = ((value - low) / (high - low) * BINS as f64).max(0.0) as usize;
@@ -180,18 +188,15 @@ fn draw(picture: &mut GrayImage, corner: [u32; 2], panel: u32, drawn: &Drawn) {
         // From the square's centre, y up.
         let place = [x, -y].map(|value| (0.5 * side + 0.46 * side * value) as u32);
         for (dx, dy) in (0..size).flat_map(|dx| (0..size).map(move |dy| (dx, dy))) {
-            picture.put_pixel(
-                (corner[0] + place[0] + dx).min(corner[0] + SIDE - 1),
-                (corner[1] + place[1] + dy).min(corner[1] + SIDE - 1),
-                Luma([shade]),
-            );
+            let [x, y] = [(0, dx), (1, dy)].map(|(axis, step): (usize, u32)| corner[axis] + (place[axis] + step).min(SIDE - 1));
+            picture.put_pixel(x, y, Luma([shade]));
         }
     };
     for (x, y) in (0..SIDE).flat_map(|x| (0..SIDE).map(move |y| (x, y))) {
         let [x, y] = [x, y].map(|pixel| ((f64::from(pixel) + 0.5) / side - 0.5) / 0.46);
         dot(x, y, 1, 255);
     }
-    if !matches!(drawn, Drawn::Square(_)) {
+    if matches!(drawn, Drawn::Disk(_) | Drawn::Sphere(_)) {
         for step in 0..2000 {
             let around = DVec2::from_angle(TAU * f64::from(step) / 2000.0);
             dot(around.x, around.y, 1, 200);
@@ -199,17 +204,12 @@ fn draw(picture: &mut GrayImage, corner: [u32; 2], panel: u32, drawn: &Drawn) {
     }
     let mut points: Vec<(bool, DVec2)> = (0..POINTS)
         .map(|point| {
-            let [u, v] = match (panel, drawn) {
-                // Halton's points are few: the first of the sequence.
-                (_, Drawn::Square(map)) if map(0.25, 0.75) == DVec2::new(0.25, 0.75) => {
-                    [0, 1].map(|d| f64::from(radical_inverse_bits(0, d, point)) / 4_294_967_296.0)
-                }
-                _ => numbers(panel, point),
-            };
+            let [u, v] = numbers(panel, point);
             match drawn {
                 Drawn::Square(map) => (true, 2.0 * map(u, v) - 1.0),
                 Drawn::Disk(map) => (true, map(u, v)),
                 Drawn::Sphere(map) => seen(map(u, v)),
+                Drawn::Halton => (true, 2.0 * halton(point) - 1.0),
             }
         })
         .collect();
