@@ -186,7 +186,7 @@ settings! {
             compared: false,
             study: false,
         }
-        /// How multiple importance sampling weighs the two.
+        /// How multiple importance sampling weighs light samples and samples of the BSDF.
         heuristic: MisHeuristic = MisHeuristic::Power => {
             values: Names(MisHeuristic::NAMES),
             flag: "--heuristic",
