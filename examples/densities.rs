@@ -21,7 +21,7 @@ const SIDE: u32 = 200;
 const GAP: u32 = 8;
 const COLUMNS: u32 = 5;
 
-/// What is drawn of two uniform numbers.
+/// A map of two uniform numbers.
 enum Drawn {
     /// In the unit square, whose lower left corner is the origin.
     Square(fn(f64, f64) -> DVec2),

@@ -145,7 +145,7 @@ def basics():
     cells = [("glossy-reflection", exponents), ("box", glowing), ("box", smooth), ("box", combined)]
     cells = [(*cell, 256, "--size", "240x180") for cell in cells]
     for radius in (0.15, 0.3, 0.6):
-        # As much light from each.
+        # The power is the same.
         light = {
             'radius   = 0.6\nmaterial = "lamp"': f'radius   = {radius}\nmaterial = "lamp"',
             'name = "lamp"\ntype = "emissive"\nradiance = 6': f'name = "lamp"\ntype = "emissive"\nradiance = {6 * (0.6 / radius) ** 2:g}',

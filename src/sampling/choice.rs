@@ -2,12 +2,12 @@
 //!
 //! The number by which roulette ends a path makes it too: its first bit chooses, the others are left for roulette.
 
-/// What a path does at a place where it may do either, with a chance of one half each.
+/// The two ways on from a place, each with a chance of one half.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Choice {
-    /// It samples a light, and ends.
+    /// The path samples a light, and ends.
     Light,
-    /// It goes on in a direction of the material or the phase function.
+    /// The path goes on in a direction of the material or the phase function.
     Path,
 }
 
@@ -20,7 +20,7 @@ impl Choice {
         if bits >> 31 == 0 { Self::Light } else { Self::Path }
     }
 
-    /// What is left of the bits: they are uniform whatever was chosen.
+    /// The bits that are left for roulette: they are uniform whatever was chosen.
     pub fn bits_left(bits: u32) -> u32 {
         bits << 1
     }

@@ -17,7 +17,7 @@ fn phong_lobe(surface: Surface, wo: vec3<f32>, exponent: f32, wi: vec3<f32>) -> 
     let cosine = dot(wi, surface.shading_normal);
     var spread = cosine_power_pdf(axis, exponent, wi);
     if HAS_PHONG_FLIPPED {
-        // What the lobe has in the opposite direction, below the surface, was turned up.
+        // The lobe below the surface, in the opposite direction, was turned up.
         spread += cosine_power_pdf(axis, exponent, -wi);
     }
     var projected = cosine;

@@ -6,7 +6,7 @@ use super::blend;
 use super::diffuse::Diffuse;
 use super::lobe::Lobe;
 use super::lookup::Lookup;
-use super::phong_lobe::PhongStudy;
+use super::phong_study::PhongStudy;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::reference::intersect::{Surface, UvSet};

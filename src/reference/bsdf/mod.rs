@@ -23,6 +23,7 @@ mod null;
 mod phong;
 mod phong_glass;
 mod phong_lobe;
+mod phong_study;
 mod plastic;
 mod principled;
 mod principled_layers;

@@ -1,4 +1,4 @@
-//! The cosine-power lobe about the mirror direction that `glossy` and `phong` have, and what comparisons change of it.
+//! The cosine-power lobe about the mirror direction that `glossy` and `phong` have, as [`PhongStudy`](super::phong_study::PhongStudy) changes it.
 
 use glam::DVec3;
 
@@ -6,28 +6,7 @@ use super::cosine_power::{lobe_over_cosine, sample_about};
 use super::hemisphere::{hemisphere_pdf, sample_hemisphere};
 use super::view::View;
 use crate::reference::warp;
-use crate::scene::{PhongCosine, PhongHorizon, PhongSampling, RenderSettings};
-
-/// The settings by which such lobes are compared with others of the literature.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PhongStudy {
-    pub cosine: PhongCosine,
-    pub sampling: PhongSampling,
-    pub horizon: PhongHorizon,
-}
-
-impl From<&RenderSettings> for PhongStudy {
-    fn from(settings: &RenderSettings) -> Self {
-        Self { cosine: settings.phong_cosine, sampling: settings.phong_sampling, horizon: settings.phong_horizon }
-    }
-}
-
-/// Lobes as they are where nothing is compared.
-impl Default for PhongStudy {
-    fn default() -> Self {
-        Self { cosine: PhongCosine::Kept, sampling: PhongSampling::Lobe, horizon: PhongHorizon::Lost }
-    }
-}
+use crate::scene::{PhongCosine, PhongHorizon, PhongSampling};
 
 /// f = (n+2)/(2π) cosⁿα, α the angle with the mirror direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +21,7 @@ impl PhongLobe {
         let (cos_theta, cos_alpha) = (wi.dot(view.normal()), wi.dot(view.mirrored()));
         let cos_alpha = match view.phong.horizon {
             PhongHorizon::Lost => cos_alpha,
-            // What the lobe has in the opposite direction, below the surface, was turned up.
+            // The lobe below the surface, in the opposite direction, was turned up.
             PhongHorizon::Flipped => cos_alpha.abs(),
         };
         let f = lobe_over_cosine(self.exponent, cos_alpha);

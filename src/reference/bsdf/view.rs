@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::phong_lobe::PhongStudy;
+use super::phong_study::PhongStudy;
 use crate::math::Frame;
 use crate::reference::intersect::{NormalTexel, Tangents, UvSet};
 use crate::scene::HemisphereSampling;

@@ -31,7 +31,7 @@ use super::mirror::Mirror;
 use super::null::Null;
 use super::phong::Phong;
 use super::phong_glass::PhongGlass;
-use super::phong_lobe::PhongStudy;
+use super::phong_study::PhongStudy;
 use super::plastic::{Base, Plastic};
 use super::rough_glass::RoughGlass;
 use super::rough_plastic::RoughPlastic;

@@ -63,7 +63,7 @@ choices! {
         Uniform = "uniform",
     }
 
-    /// Whether the cosine-power lobes of `glossy` and `phong` keep the cosine of the rendering equation (Honsdorf 2013, section 5.3).
+    /// The cosine of the rendering equation in the cosine-power lobes of `glossy` and `phong` (Honsdorf 2013, section 5.3).
     pub enum PhongCosine {
         /// The lobe's value times the cosine with the normal.
         Kept = "kept",
@@ -79,7 +79,7 @@ choices! {
         Hemisphere = "hemisphere",
     }
 
-    /// What becomes of directions that the cosine-power lobes of `glossy` and `phong` have below the surface.
+    /// The fate of directions that the cosine-power lobes of `glossy` and `phong` have below the surface.
     pub enum PhongHorizon {
         /// They are lost, and with them their light.
         Lost = "lost",

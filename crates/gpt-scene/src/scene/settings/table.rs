@@ -240,7 +240,7 @@ settings! {
             compared: true,
             study: true,
         }
-        /// What becomes of directions that these lobes have below the surface.
+        /// The fate of directions that these lobes have below the surface.
         phong_horizon: PhongHorizon = PhongHorizon::Lost => {
             values: Names(PhongHorizon::NAMES),
             flag: "--phong-horizon",
@@ -277,7 +277,7 @@ pub struct Setting {
     /// `gpt bench convergence` may compare its values. It cannot where the measurement itself decides the value, or where the value
     /// decides what picture comes out.
     pub compared: bool,
-    /// It is there to compare strategies. Help and documents list it apart.
+    /// The setting is there to compare strategies. Help and documents list it apart.
     pub study: bool,
     get: fn(&RenderSettings) -> Value,
     set: fn(&mut RenderSettings, Value),
