@@ -258,7 +258,7 @@ FIGURES = {
     figure.__name__: figure
     for figure in (
         *(estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers),
-        *(study.choosing, study.heuristics, study.phong, study.sequences, study.densities, study.basics, study.dice),
+        *(study.choosing, study.weighing, study.phong, study.sequences, study.densities, study.basics, study.dice),
     )
 }
 

@@ -30,7 +30,7 @@ def choosing():
     montage("choosing.jpg", 2, cells + [("veach-glossy", way, 16, "--sampler", "independent", "--size", "240x180") for way in ways])
 
 
-def heuristics():
+def weighing():
     """Heuristics of multiple importance sampling."""
 
     def power(beta):
@@ -47,9 +47,9 @@ def heuristics():
     for scene, _ in scenes:
         truths = references(scene, balance, 2048)
         for way in ways:
-            errors[scene, way.name] = [error("heuristics", scene, way, count, truths) for count in (16, 64)]
+            errors[scene, way.name] = [error("weighing", scene, way, count, truths) for count in (16, 64)]
     rows = [[way.name, *(show(pair) for scene, _ in scenes for pair in errors[scene, way.name])] for way in ways]
-    table("heuristics", ["heuristic", *(f"{name}, {count} spp" for _, name in scenes for count in (16, 64))], rows)
+    table("weighing", ["heuristic", *(f"{name}, {count} spp" for _, name in scenes for count in (16, 64))], rows)
 
 
 def phong():

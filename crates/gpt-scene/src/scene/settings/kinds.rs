@@ -15,9 +15,9 @@ choices! {
         Halton = "halton",
         /// Owen-scrambled Sobol' sequence.
         Sobol = "sobol",
-        /// Scrambled Hammersley set of as many points as there are samples per pixel: for comparison.
+        /// Study: scrambled Hammersley set of as many points as there are samples per pixel.
         Hammersley = "hammersley",
-        /// Linear congruential generator, from a start of its own for each path: for comparison.
+        /// Study: linear congruential generator, from a start of its own for each path.
         Congruential = "lcg",
     }
 
@@ -29,7 +29,7 @@ choices! {
         Nee = "nee",
         /// BSDF sampling alone.
         Bsdf = "bsdf",
-        /// At each place one of the two, chosen at random and weighed as by `mis`; a path that chooses next event estimation ends with it: for comparison.
+        /// Study: at each place one of the two, chosen at random and weighed as by `mis`; a path that chooses next event estimation ends with it.
         Choose = "choose",
     }
 
