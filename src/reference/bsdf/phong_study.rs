@@ -1,4 +1,4 @@
-//! What comparisons change of the cosine-power lobes of `glossy` and `phong`.
+//! The changes that comparisons make to the cosine-power lobes of `glossy` and `phong`.
 
 use crate::scene::{PhongCosine, PhongHorizon, PhongSampling, RenderSettings};
 
