@@ -14,7 +14,11 @@ MIS = Way("both at each place (`mis`, the default)", ["--estimator", "mis"])
 
 def choosing():
     """Choosing between light and material, beside doing both."""
-    ways = [Way("one of both at each place (`choose`)", ["--estimator", "choose"]), MIS]
+    ways = [
+        Way("one of both at each place (`choose`)", ["--estimator", "choose"]),
+        Way("one of both, balance heuristic", ["--estimator", "choose", "--heuristic", "balance"]),
+        MIS,
+    ]
     for scene, samples, spp in (("cornell", [16, 64, 256], 96), ("veach-glossy", [16, 64, 256], 128)):
         truths = references(scene, MIS, 2048)
         errors = {way.name: [error(f"choosing, {scene}", scene, way, count, truths) for count in samples] for way in ways}
@@ -26,8 +30,8 @@ def choosing():
         ]
         heading = ["estimator", *(f"{count} spp" for count in samples), "processor seconds", "relative error at equal time"]
         table(f"choosing, {scene}", heading, rows)
-    cells = [("cornell", way, 16, "--sampler", "independent", "--size", "240x180") for way in ways]
-    montage("choosing.jpg", 2, cells + [("veach-glossy", way, 16, "--sampler", "independent", "--size", "240x180") for way in ways])
+    shown = [(scene, way) for scene in ("cornell", "veach-glossy") for way in (ways[0], MIS)]
+    montage("choosing.jpg", 2, [(*cell, 16, "--sampler", "independent", "--size", "240x180") for cell in shown])
 
 
 def weighing():
@@ -200,6 +204,6 @@ def densities():
         values = [float(value) for value in values]
         record("densities", name, coordinate, 1_000_000, "mean: measured, predicted; largest of 32 bins in standard deviations", values)
         mean, predicted, worst = values
-        rows.append([name, DENSITIES[name], coordinate, f"{mean:.5f}", f"{predicted:.5f}", f"{worst:.1f}"])
+        rows.append([name, DENSITIES[name], coordinate, f"{mean:.5f}", f"{round(predicted, 5) + 0.0:.5f}", f"{worst:.1f}"])
     heading = ["density", "in the works", "coordinate", "mean of a million points", "predicted", "largest of 32 bins, in standard deviations"]
     table("densities", heading, rows)
