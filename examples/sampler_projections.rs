@@ -1,7 +1,7 @@
 //! Draws the first points of every sampler, two named dimensions at a time: `cargo run --release --example sampler_projections [FILE]`
 //! (default docs/samplers.png).
 //!
-//! One row a sampler, in the order independent, stratified, quadrant, halton, sobol; the columns are the pixel, the lens, pixel x
+//! One row a sampler, in the order of `SamplerKind`; the columns are the pixel, the lens, pixel x
 //! against lens u, the first light's point, the first direction, the light's u against the direction's u, the fourth light's point,
 //! and the choices of light and lobe. 256 points of one pixel.
 

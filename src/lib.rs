@@ -143,7 +143,8 @@ pub use {
     renderer::{DeviceChoice, Observer, RenderReport, Silent},
     scene::{
         BlendMode, DistanceSampling, Emitters, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling,
-        LightChoice, LightSampling, MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind, Scene,
+        LightChoice, LightSampling, MisHeuristic, NumberOrAuto, PhongCosine, PhongHorizon, PhongSampling, PixelSampler,
+        RenderSettings, SamplerKind, Scene,
     },
     verify::Verdict,
 };

@@ -4,6 +4,7 @@
 import argparse
 
 import integral
+import study
 from measure import Way, be_quick, error, keep_errors, montage, record, references, samplers, seconds, show, table, write_numbers
 
 BSDF = Way("material sampling alone (`bsdf`)", ["--estimator", "bsdf"])
@@ -297,7 +298,11 @@ def strata():
 
 FIGURES = {
     figure.__name__: figure
-    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers, heuristics, mixed_glass, aging, strata)
+    for figure in (
+        *(estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers),
+        *(heuristics, mixed_glass, aging, strata),
+        *(study.choosing, study.weighing, study.phong, study.sequences, study.densities, study.basics, study.dice),
+    )
 }
 
 

@@ -1,4 +1,4 @@
-"""The integral of x³ over [0, 1], which is 1/4, estimated with the densities p = 1 and p = 2x."""
+"""The integral of x³ over [0, 1], which is 1/4, estimated with a uniform density, a similar one and a mismatched one."""
 
 import math
 import random
@@ -8,6 +8,13 @@ RUNS = 1000
 DENSITIES = [
     ("p = 1", lambda u: u, lambda x: 1.0, 1 / 7 - 1 / 16),
     ("p = 2x", math.sqrt, lambda x: 2 * x, 1 / 12 - 1 / 16),
+    # ∫x⁶/(3/2 − x) by division: (3/2)⁶ ln 3 less the integrals of the quotient's terms.
+    (
+        "p = 3/2 − x",
+        lambda u: 1.5 - math.sqrt(2.25 - 2 * u),
+        lambda x: 1.5 - x,
+        1.5**6 * math.log(3) - sum(1.5 ** (5 - power) / (power + 1) for power in range(6)) - 1 / 16,
+    ),
 ]
 
 

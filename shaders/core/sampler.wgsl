@@ -1,5 +1,6 @@
 // Randomness as a pure function of (seed, pixel, sample index, named dimension): the device's half of src/sampling.
 #import core/layout.wgsl
+#import core/lcg.wgsl
 #import core/parameters.wgsl
 
 const GOLDEN: u32 = 0x9e3779b9u;
@@ -37,6 +38,15 @@ fn dimension_bits4(key: u32, first_dimension: u32) -> vec4<u32> {
     return mix_bits4(vec4<u32>(key) + dimensions * GOLDEN);
 }
 
+// The bits of four successive dimensions of a path that has a key of its own.
+fn own_bits4(key: u32, first_dimension: u32) -> vec4<u32> {
+    if HAS_LCG {
+        return lcg_bits4(key, first_dimension);
+    } else {
+        return dimension_bits4(key, first_dimension);
+    }
+}
+
 // The bits of a point of the sequence, moved by a shift of the pixel's own.
 fn shifted(point: vec4<u32>, shift: vec4<u32>) -> vec4<u32> {
     return select(point + shift, point ^ shift, HAS_DIGITAL_SHIFT);
@@ -51,7 +61,7 @@ fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
         return shifted(sequence_points[sample_in_pass * SEQUENCE_STRIDE + block], dimension_bits4(key, block * 4u));
     }
 #endif
-    return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
+    return own_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
 }
 
 // Hashed light samples after the first of a surface have blocks from here on.
@@ -67,7 +77,7 @@ fn further_light_bits(pixel: u32, sample_in_pass: u32, vertex: u32, depth: u32, 
     return shifted(sequence_points[sample_in_pass * SEQUENCE_STRIDE + block], dimension_bits4(key, 8u * vertex));
 #else
     let block = HASHED_LIGHT_BLOCK + 16u * vertex + number;
-    return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
+    return own_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
 #endif
 }
 
@@ -80,6 +90,9 @@ fn camera_block(pixel: u32, sample_in_pass: u32) -> vec4<u32> {
     }
     if HAS_PIXEL_HASHED {
         in_pixel = dimension_bits4(path_key(pixel_key(pixel), pass_parameters.first_sample + sample_in_pass), 0u);
+    }
+    if HAS_PIXEL_LCG {
+        in_pixel = lcg_bits4(path_key(pixel_key(pixel), pass_parameters.first_sample + sample_in_pass), 0u);
     }
 #if PIXEL_ROTATION
     in_pixel = sequence_points[sample_in_pass * SEQUENCE_STRIDE] + dimension_bits4(pixel_key(pixel), 0u);

@@ -12,9 +12,11 @@ pub struct SettingFlags(pub Vec<Assignment>);
 
 impl Args for SettingFlags {
     fn augment_args(command: Command) -> Command {
-        let heading = "How the picture is estimated (default: what the scene says; in brackets, where it says nothing)";
+        let ordinary = "How the picture is estimated (default: what the scene says; in brackets, where it says nothing)";
+        let study = "Study: settings that are there to compare strategies";
         let flags = SETTINGS.iter().map(|setting| {
             let sentences = format!("{} [{}]", help(setting.help()), setting.default());
+            let heading = if setting.study { study } else { ordinary };
             flag(setting).value_name(setting.placeholder).help(sentences).help_heading(heading)
         });
         command.args(flags)

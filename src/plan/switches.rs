@@ -11,10 +11,12 @@ use crate::packed::shape::{PrimitiveKind, SurfaceSampling};
 use crate::packed::texture::{PackedTextureKind, TexelFormat};
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
+use crate::sampling::mis::Heuristic;
 use crate::scene::material::{self, ANISOTROPIC, SEPARABLE_MASKING};
 use crate::scene::{ApertureShape, DistanceSampling, Filter, FilterKind, HemisphereSampling, MapRows, Projection};
 use crate::scene::{
-    BlendMode, Emitters, Estimator, LightSampling, LobeKind, LobeSupport, MisHeuristic, PixelSampler, RenderSettings, Scene,
+    BlendMode, Emitters, Estimator, LightSampling, LobeKind, LobeSupport, PhongCosine, PhongHorizon, PhongSampling, PixelSampler,
+    RenderSettings, Scene,
 };
 use crate::shader::Switches;
 
@@ -59,9 +61,13 @@ pub fn of_scene(scene: &Scene, packed: &PackedScene) -> Switches {
 
     choose_lights(scene, packed, &mut switches);
 
-    switches.enable("ESTIMATOR_MIS", render.estimator == Estimator::Mis);
+    switches.enable("ESTIMATOR_MIS", matches!(render.estimator, Estimator::Mis | Estimator::Choose));
+    switches.enable("ESTIMATOR_CHOOSE", render.estimator == Estimator::Choose);
     switches.enable("ESTIMATOR_NEE", render.estimator == Estimator::Nee);
-    switches.enable("HEURISTIC_POWER", render.heuristic == MisHeuristic::Power);
+    let heuristic = Heuristic::from(render);
+    switches.enable("HEURISTIC_POWER", heuristic == Heuristic::Power(2.0));
+    switches.enable("HEURISTIC_EXPONENT", matches!(heuristic, Heuristic::Power(beta) if beta != 1.0 && beta != 2.0));
+    switches.enable("HEURISTIC_CUTOFF", matches!(heuristic, Heuristic::Cutoff(_)));
     switches.enable("ROULETTE", render.first_roulette(false).is_some());
     enable_sampler(&mut switches, render);
     let hides = render.emitters == Emitters::Hidden;
@@ -71,6 +77,7 @@ pub fn of_scene(scene: &Scene, packed: &PackedScene) -> Switches {
     switches.enable("BY_DISTANCE", scatter && render.distance_sampling == DistanceSampling::Distance);
     switches.enable("BY_ANGLE", scatter && render.distance_sampling == DistanceSampling::Equiangular);
     switches.enable("UNIFORM_HEMISPHERE", render.hemisphere == HemisphereSampling::Uniform);
+    enable_phong(&mut switches, render, packed);
     let blades = enable_camera(&mut switches, scene);
     switches.constants.insert("BLADES", blades);
     switches
@@ -99,6 +106,11 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("SEPARABLE_ALBEDO_WORD", albedo_word(albedos.separable)),
         ("SHEEN_ALBEDO_WORD", albedo_word(albedos.sheen)),
         ("CLAMP_BITS", (render.clamp as f32).to_bits()),
+        (
+            "HEURISTIC_CUTOFF_BITS",
+            if let Heuristic::Cutoff(alpha) = Heuristic::from(render) { (alpha as f32).to_bits() } else { 0 },
+        ),
+        ("HEURISTIC_EXPONENT_BITS", (render.heuristic_exponent as f32).to_bits()),
         ("ENVIRONMENT_FIRST_DENSITY", map.first_density),
         ("ENVIRONMENT_FIRST_NODE", map.first_node),
         ("ENVIRONMENT_FIRST_TEXEL", map.first_texel),
@@ -227,9 +239,18 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     switches.enable("ENVIRONMENT_SAMPLED", sampled && (has(LightKind::Environment) || has(LightKind::Portal)));
 }
 
+/// Studies of cosine-power lobes, where there are such.
+fn enable_phong(switches: &mut Switches, render: &RenderSettings, packed: &PackedScene) {
+    let has_lobes = [LobeKind::Glossy, LobeKind::Phong].into_iter().any(|lobe| packed.materials.has(lobe as u32));
+    switches.enable("PHONG_WITHOUT_COSINE", has_lobes && render.phong_cosine == PhongCosine::Dropped);
+    switches.enable("PHONG_BY_HEMISPHERE", has_lobes && render.phong_sampling == PhongSampling::Hemisphere);
+    switches.enable("PHONG_FLIPPED", has_lobes && render.phong_horizon == PhongHorizon::Flipped);
+}
+
 fn enable_sampler(switches: &mut Switches, render: &RenderSettings) {
     let path = Decorrelation::of(render.sampler);
-    switches.enable("SEQUENCE", path != Decorrelation::Hashed);
+    switches.enable("SEQUENCE", path.has_sequence());
+    switches.enable("LCG", path == Decorrelation::Stream);
     switches.enable("DIGITAL_SHIFT", path == Decorrelation::DigitalShift);
     // The pixel's own, where it differs from the path's.
     let pixel = match render.pixel_sampler {
@@ -238,6 +259,7 @@ fn enable_sampler(switches: &mut Switches, render: &RenderSettings) {
     };
     switches.enable("PIXEL_CENTRE", render.pixel_sampler == PixelSampler::Centre);
     switches.enable("PIXEL_HASHED", pixel == Some(Decorrelation::Hashed));
+    switches.enable("PIXEL_LCG", pixel == Some(Decorrelation::Stream));
     switches.enable("PIXEL_ROTATION", pixel == Some(Decorrelation::Rotation));
     switches.enable("PIXEL_DIGITAL_SHIFT", pixel == Some(Decorrelation::DigitalShift));
 }

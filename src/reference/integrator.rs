@@ -23,13 +23,15 @@ use super::intersect::{Hit, PathTime, Ray, Surface, World};
 use super::layered::{LayersOfMaterials, SurfaceScatterer};
 use super::lights::{LightSample, Lights};
 use super::medium::{MediumStack, given_off, left};
-use super::mis;
 use super::phase::Scattering;
 use super::roulette::{self, Expectation};
 use super::scatterer::{Interaction, Scatterer};
 use super::trace::{LightConnection, PathVisitor};
 use super::tracking::{Stream, pass_through, track};
+use crate::sampling::choice::Choice;
 use crate::sampling::hash::mix;
+use crate::sampling::mis::Heuristic;
+use crate::sampling::sampler::uniform;
 use crate::sampling::{CameraDimension, Dimension, Guide, LightSampleContext, MediumDimension, PathSampler, VertexDimension};
 use crate::scene::{Emitters, Estimator, Filling, Media, MediumGrids, Scene};
 use crate::spectrum::Spectrum;
@@ -292,18 +294,30 @@ impl Integrator {
         let mut reference_normal = interaction.point().normal_towards(scatterer.wo());
         visitor.round_direction(&mut reference_normal);
 
+        // Choose between light sampling and going on, where the estimator does not do both
+        let samples_light = !last_edge && self.samples_light(scatterer);
+        let roulette_bits = sampler.bits(Dimension::vertex(vertex, VertexDimension::Roulette));
+        let choice = (samples_light && self.scene.render.estimator == Estimator::Choose).then(|| Choice::of(roulette_bits));
+        if choice.is_some() {
+            path.throughput *= Choice::TIMES;
+        }
+
         // Sample lights for direct lighting
-        if !last_edge && V::LIGHTS && self.samples_light(scatterer) {
+        if V::LIGHTS && samples_light && choice != Some(Choice::Path) {
             for number in 0..self.scene.render.light_samples_at(path.depth) {
                 let bits = sampler.light_bits(vertex, path.depth, number);
                 self.add_direct_light(path, (interaction, reference_normal), scatterer, bits, visitor);
             }
         }
+        if choice == Some(Choice::Light) {
+            return false;
+        }
 
         // Sample the direction in which the path goes on
         let [u1, u2] = [VertexDimension::BsdfU, VertexDimension::BsdfV].map(|number| visitor.round_number(random(number)));
         let u_lobe = visitor.round_number(random(VertexDimension::Lobe));
-        let Some(mut drawn) = scatterer.sample(u_lobe, u1, u2) else { return false };
+        let drawn = scatterer.sample(u_lobe, u1, u2).filter(|drawn| !drawn.weight.is_black());
+        let Some(mut drawn) = drawn else { return false };
         visitor.round_sample(&mut drawn, scatterer);
         if last_edge && !drawn.is_null {
             return false;
@@ -331,7 +345,7 @@ impl Integrator {
         path.reference = LightSampleContext::new(path.ray.origin, reference_normal);
 
         // Let Russian roulette end the path
-        let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
+        let u_roulette = visitor.round_number(uniform(choice.map_or(roulette_bits, |_| Choice::bits_left(roulette_bits))));
         let survival = match self.guide {
             // In fog a guide says too little of what a path will bring yet: paths that ended by it made twice the noise
             Some(_) => {
@@ -392,7 +406,9 @@ impl Integrator {
             (Density::SolidAngle(pdf), estimator) => match (light_pdf(), estimator) {
                 (0.0, _) => 1.0,
                 (_, Estimator::Nee) => 0.0,
-                (light_pdf, Estimator::Mis | Estimator::Bsdf) => mis::weight(settings.heuristic, pdf, light_pdf),
+                (light_pdf, Estimator::Mis | Estimator::Choose | Estimator::Bsdf) => {
+                    Heuristic::from(settings).weight(pdf, light_pdf)
+                }
             },
         }
     }
@@ -435,7 +451,7 @@ impl Integrator {
         let weight = if light.delta || settings.estimator == Estimator::Nee {
             1.0
         } else {
-            mis::weight(settings.heuristic, light.pdf, scattering.pdf)
+            Heuristic::from(settings).weight(light.pdf, scattering.pdf)
         };
 
         // Trace the shadow ray: light that comes through the surface arrives on its other side

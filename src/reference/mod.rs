@@ -3,7 +3,7 @@
 //! The reference draws the same random numbers as the device and takes the same decisions, so that the two
 //! agree path by path. The CPU's renderer ([`crate::cpu`]) and learning ([`crate::learn`]) use it. The way of
 //! a sample: [`camera`] makes a ray, [`integrator`] follows it from surface to surface,
-//! [`intersect`] says which surface it meets, [`bsdf`] how that scatters, [`texture`](crate::texture) what it is made of there, [`lights`] where light is looked for, [`mis`] how the
+//! [`intersect`] says which surface it meets, [`bsdf`] how that scatters, [`texture`](crate::texture) what it is made of there, [`lights`] where light is looked for, [`mis`](crate::sampling::mis) how the
 //! two ways of finding light share it.
 
 pub mod bsdf;
@@ -18,7 +18,6 @@ pub mod layer;
 mod layered;
 pub mod lights;
 mod medium;
-pub mod mis;
 mod phase;
 pub mod roulette;
 pub mod rounding;

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::scene::settings::MOST_SAMPLES;
 
 /// Why some pictures cannot be rendered in parts.
-pub const PARTS_OF_STRATA: &str = "the sampler `stratified` lays out its strata for all samples of a picture, so parts of them would not add \
+pub const PARTS_OF_STRATA: &str = "the samplers `stratified` and `hammersley` lay out points for all samples of a picture, so parts of them would not add \
      up to the whole; the other samplers' do";
 
 /// How a scene is rendered. The default renders what the scene says on the best device there is.

@@ -19,11 +19,16 @@ pub const BASES: [u32; SEQUENCE_DIMENSIONS as usize] = [
 
 /// The radical inverse of `index` in the base of `dimension`, digits permuted, as a 32-bit fraction. `dimension` is one that a
 /// sequence covers.
+pub fn radical_inverse_bits(seed: u32, dimension: u32, index: u32) -> u32 {
+    permuted_radical_inverse(seed, dimension, BASES[dimension as usize], index)
+}
+
+/// The radical inverse of `index` in a base, digits permuted as those of this dimension, as a 32-bit fraction.
 ///
 /// Digit k is permuted by a random permutation keyed by (seed, dimension, k) (random digit scrambling, Matoušek 1998). All digits
 /// that a 32-bit fraction can hold are permuted, leading zeros of the index included.
-pub fn radical_inverse_bits(seed: u32, dimension: u32, index: u32) -> u32 {
-    let base = u64::from(BASES[dimension as usize]);
+pub fn permuted_radical_inverse(seed: u32, dimension: u32, base: u32, index: u32) -> u32 {
+    let base = u64::from(base);
     let mut remaining = u64::from(index);
     let mut fraction: u64 = 0;
     let mut weight: u64 = 1 << 56;

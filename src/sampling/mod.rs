@@ -9,18 +9,22 @@
 
 pub mod alias;
 pub mod cell_grid;
+pub mod choice;
 pub mod dimension;
 pub mod environment;
 pub mod filter;
 pub mod guide;
 pub mod halton;
+pub mod hammersley;
 pub mod hash;
 pub mod hierarchical_warp;
+pub mod lcg;
 pub mod light_cells;
 pub mod light_list;
 pub mod light_sampler;
 pub mod light_strategy;
 pub mod light_tree;
+pub mod mis;
 pub mod permutation;
 pub mod roulette;
 pub mod sampler;

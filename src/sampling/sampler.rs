@@ -2,6 +2,7 @@
 
 use super::dimension::Dimension;
 use super::hash::{dimension_bits, path_key, pixel_key};
+use super::lcg::lcg_bits;
 use super::sequence::{Decorrelation, Sampling, SequencePoint};
 
 /// The middle of [0, 1), where a position inside the pixel is its centre.
@@ -34,7 +35,15 @@ impl<'a> PathSampler<'a> {
         match (Decorrelation::of(kind), self.point.bits.get(d as usize)) {
             (Decorrelation::Rotation, Some(shared)) => shared.wrapping_add(dimension_bits(self.pixel_key, d)),
             (Decorrelation::DigitalShift, Some(shared)) => shared ^ dimension_bits(self.pixel_key, d),
-            _ => dimension_bits(self.path_key, d),
+            (own, _) => self.own_bits(own, d),
+        }
+    }
+
+    /// Bits that the path shares with no other.
+    fn own_bits(&self, decorrelation: Decorrelation, dimension: u32) -> u32 {
+        match decorrelation {
+            Decorrelation::Stream => lcg_bits(self.path_key, dimension),
+            _ => dimension_bits(self.path_key, dimension),
         }
     }
 
@@ -54,7 +63,7 @@ impl<'a> PathSampler<'a> {
             match (Decorrelation::of(self.sampling.path), shared) {
                 (Decorrelation::Rotation, Some(shared)) => shared[axis].wrapping_add(dimension_bits(self.pixel_key, d)),
                 (Decorrelation::DigitalShift, Some(shared)) => shared[axis] ^ dimension_bits(self.pixel_key, d),
-                _ => dimension_bits(self.path_key, HASHED_LIGHTS.wrapping_add(64 * (vertex + 1) + 4 * number + axis as u32)),
+                (own, _) => self.own_bits(own, HASHED_LIGHTS.wrapping_add(64 * (vertex + 1) + 4 * number + axis as u32)),
             }
         };
         [bits(0), bits(1), bits(2)]

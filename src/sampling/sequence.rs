@@ -2,6 +2,7 @@
 
 use super::dimension::{Dimension, SEQUENCE_DIMENSIONS, VertexDimension};
 use super::halton::radical_inverse_bits;
+use super::hammersley::hammersley_bits;
 use super::sobol::sobol_bits;
 use super::strata::{quadrant_bits, shared_strata_bits, stratified_bits};
 use crate::scene::{PixelSampler, RenderSettings, SamplerKind};
@@ -12,7 +13,7 @@ pub struct Sampling {
     pub path: SamplerKind,
     pub pixel: PixelSampler,
     pub seed: u32,
-    /// Samples per pixel for which `stratified` lays out its strata, at least 1.
+    /// Samples per pixel for which `stratified` lays out its strata and `hammersley` its points, at least 1.
     pub samples: u32,
     /// Light samples at the first surfaces of a path, at least 1, and at how many of them.
     pub light_samples: u32,
@@ -45,6 +46,8 @@ pub enum Decorrelation {
     DigitalShift,
     /// There is no sequence: every number is hashed.
     Hashed,
+    /// There is no sequence: every path has a stream of numbers of its own.
+    Stream,
 }
 
 impl Decorrelation {
@@ -52,9 +55,15 @@ impl Decorrelation {
     pub fn of(sampler: SamplerKind) -> Self {
         match sampler {
             SamplerKind::Independent => Self::Hashed,
-            SamplerKind::Stratified | SamplerKind::Halton | SamplerKind::SharedStrata => Self::Rotation,
+            SamplerKind::Congruential => Self::Stream,
+            SamplerKind::Stratified | SamplerKind::Halton | SamplerKind::Hammersley | SamplerKind::SharedStrata => Self::Rotation,
             SamplerKind::Quadrant | SamplerKind::Sobol => Self::DigitalShift,
         }
+    }
+
+    /// There is a sequence that pixels share.
+    pub fn has_sequence(self) -> bool {
+        matches!(self, Self::Rotation | Self::DigitalShift)
     }
 }
 
@@ -70,8 +79,8 @@ impl Sampling {
 
     /// Says that some number comes from a sequence.
     pub fn uses_sequence(&self) -> bool {
-        let pixel = matches!(self.pixel, PixelSampler::Other(kind) if Decorrelation::of(kind) != Decorrelation::Hashed);
-        pixel || Decorrelation::of(self.path) != Decorrelation::Hashed
+        let pixel = matches!(self.pixel, PixelSampler::Other(kind) if Decorrelation::of(kind).has_sequence());
+        pixel || Decorrelation::of(self.path).has_sequence()
     }
 
     /// Bits that all pixels share; 0 where there are none.
@@ -94,12 +103,13 @@ impl Sampling {
     fn bits_at(&self, dimension: Dimension, sample: u32, samples: u32) -> u32 {
         let Dimension(d) = dimension;
         match self.sampler_of(dimension) {
-            None | Some(SamplerKind::Independent) => 0,
+            None | Some(SamplerKind::Independent | SamplerKind::Congruential) => 0,
             Some(SamplerKind::Stratified) => stratified_bits(self.seed, samples, dimension, sample),
             Some(SamplerKind::SharedStrata) => shared_strata_bits(self.seed, samples, dimension, sample),
             Some(SamplerKind::Quadrant) => quadrant_bits(self.seed, dimension, sample),
             Some(SamplerKind::Halton) => radical_inverse_bits(self.seed, d, sample),
             Some(SamplerKind::Sobol) => sobol_bits(self.seed, d, sample),
+            Some(SamplerKind::Hammersley) => hammersley_bits(self.seed, samples, d, sample),
         }
     }
 }

@@ -13,6 +13,7 @@ macro_rules! shader_files {
 
 shader_files![
     "core/camera.wgsl",
+    "core/lcg.wgsl",
     "core/math.wgsl",
     "core/octahedron.wgsl",
     "core/parameters.wgsl",
@@ -87,6 +88,7 @@ shader_files![
     "shading/microfacet/fresnel.wgsl",
     "shading/microfacet/hemisphere.wgsl",
     "shading/microfacet/microfacet.wgsl",
+    "shading/microfacet/phong_lobe.wgsl",
     "shading/microfacet/plastic.wgsl",
     "shading/microfacet/principled_layers.wgsl",
     "shading/microfacet/rough_diffuse.wgsl",

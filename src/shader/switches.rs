@@ -122,6 +122,9 @@ const TEXEL_FORMATS: &[&str] = &["TEXELS_IN_BYTES", "TEXELS_IN_FLOATS", "TEXELS_
 /// Kinds of sampled light; where lights are sampled there is one at least.
 const LIGHT_KINDS: &[&str] = &["DELTA_LIGHTS", "AREA_LIGHTS", "SPHERE_LIGHTS", "ENVIRONMENT_LIGHT", "PORTALS"];
 
+/// Lobes that are a power of the cosine about the mirror direction.
+const COSINE_POWER_LOBES: &[&str] = &["GLOSSY", "PHONG"];
+
 /// Layers, of which a render makes one at most.
 const LAYERS: &[&str] = &[
     "LAYER_ALBEDO",
@@ -183,6 +186,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("ENVIRONMENT"),
     switch("ENVIRONMENT_LIGHT").requires(&["ENVIRONMENT_SAMPLED"]),
     switch("ENVIRONMENT_SAMPLED").requires(&["ENVIRONMENT", "LIGHTS"]).one_of(&["ENVIRONMENT_LIGHT", "PORTALS"]),
+    // A path either samples a light or goes on.
+    switch("ESTIMATOR_CHOOSE").requires(&["ESTIMATOR_MIS"]),
     switch("ESTIMATOR_MIS").excludes(&["ESTIMATOR_NEE"]),
     switch("ESTIMATOR_NEE"),
     switch("FILM_TEXTURE"),
@@ -195,6 +200,9 @@ const OF_FEATURES: &[Switch] = &[
         .one_of(&["RECTANGLES_BY_SOLID_ANGLE", "TRIANGLES_BY_SOLID_ANGLE"]),
     // Layers of surfaces follow mirrors and glass alone.
     switch("GUIDE").excludes(&["LAYER_OF_SURFACES"]),
+    switch("HEURISTIC_CUTOFF").excludes(&["HEURISTIC_EXPONENT", "HEURISTIC_POWER"]),
+    // The power heuristic's exponent is not 2.
+    switch("HEURISTIC_EXPONENT").excludes(&["HEURISTIC_POWER"]),
     switch("HEURISTIC_POWER"),
     // Rays of the camera go through what gives light, as they do through null surfaces.
     switch("HIDDEN_EMITTERS").requires(&["NULL_SURFACES"]),
@@ -217,6 +225,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("LAYER_OF_SURFACES").one_of(&["LAYER_DEPTH", "LAYER_ALBEDO", "LAYER_NORMAL", "LAYER_POSITION"]),
     switch("LAYER_POSITION").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
     switch("LAYER_SQUARES").excludes(LAYERS),
+    // Numbers of a path come from a linear congruential generator.
+    switch("LCG").excludes(&["SEQUENCE"]),
     switch("LENS"),
     switch("LIGHTS").one_of(LIGHT_KINDS),
     // Points of some are drawn by what they show.
@@ -252,10 +262,15 @@ const OF_FEATURES: &[Switch] = &[
     switch("ORTHOGRAPHIC"),
     switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
     switch("PERLIN").requires(&["PROCEDURAL_TEXTURES"]),
+    // Studies of cosine-power lobes.
+    switch("PHONG_BY_HEMISPHERE").one_of(COSINE_POWER_LOBES),
+    switch("PHONG_FLIPPED").one_of(COSINE_POWER_LOBES),
+    switch("PHONG_WITHOUT_COSINE").one_of(COSINE_POWER_LOBES),
     switch("PICK").requires(&["BLENDS"]),
     switch("PIXEL_CENTRE").excludes(&["PIXEL_DIGITAL_SHIFT", "PIXEL_HASHED", "PIXEL_ROTATION"]),
     switch("PIXEL_DIGITAL_SHIFT").excludes(&["PIXEL_HASHED", "PIXEL_ROTATION"]),
     switch("PIXEL_HASHED").excludes(&["PIXEL_ROTATION"]),
+    switch("PIXEL_LCG").excludes(&["PIXEL_CENTRE", "PIXEL_DIGITAL_SHIFT", "PIXEL_HASHED", "PIXEL_ROTATION"]),
     switch("PIXEL_LIST").excludes(&["TRACE"]),
     switch("PIXEL_ROTATION"),
     switch("PLANT_BRDF").debug(),

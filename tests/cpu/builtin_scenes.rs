@@ -9,7 +9,10 @@ use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
-use gpt::scene::{DistanceSampling, Guiding, Scene};
+use gpt::scene::{
+    DistanceSampling, Estimator, Guiding, MisHeuristic, PhongCosine, PhongHorizon, PhongSampling, PixelSampler, SamplerKind,
+    Scene,
+};
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
@@ -42,8 +45,19 @@ const OF_DEVICES: [&str; 26] = [
     "UNIFORM_TABLES",
 ];
 
-/// Switches of settings that no built-in scene has: `tests/gpu/agreement/media.rs` has scenes of them.
-const OF_SETTINGS: [&str; 2] = ["BY_ANGLE", "BY_DISTANCE"];
+/// Switches of settings that no built-in scene has: `tests/gpu/agreement` has scenes of them, in `media.rs` and `strategies.rs`.
+const OF_SETTINGS: [&str; 10] = [
+    "BY_ANGLE",
+    "BY_DISTANCE",
+    "ESTIMATOR_CHOOSE",
+    "HEURISTIC_CUTOFF",
+    "HEURISTIC_EXPONENT",
+    "LCG",
+    "PHONG_BY_HEMISPHERE",
+    "PHONG_FLIPPED",
+    "PHONG_WITHOUT_COSINE",
+    "PIXEL_LCG",
+];
 
 /// The switches that scenes compile in on a device.
 fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -> BTreeSet<&'static str> {
@@ -58,6 +72,22 @@ fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -
         Plan::new(scene, &packed, limits, options).map_or_else(|_| BTreeSet::new(), |plan| plan.switches.enabled)
     };
     scenes.iter().flat_map(of_scene).collect()
+}
+
+/// A scene with cosine-power lobes, and every setting that is there to compare strategies.
+fn studied() -> [Scene; 2] {
+    let mut scenes = [(); 2].map(|()| load::load(Some("stage")).expect("it is built in"));
+    for scene in &mut scenes {
+        scene.render.estimator = Estimator::Choose;
+        scene.render.phong_cosine = PhongCosine::Dropped;
+        scene.render.phong_sampling = PhongSampling::Hemisphere;
+        scene.render.phong_horizon = PhongHorizon::Flipped;
+    }
+    let [first, second] = &mut scenes;
+    (first.render.heuristic, first.render.sampler) = (MisHeuristic::Cutoff, SamplerKind::Congruential);
+    second.render.heuristic_exponent = 3.0;
+    second.render.pixel_sampler = PixelSampler::Other(SamplerKind::Congruential);
+    scenes
 }
 
 #[test]
@@ -105,6 +135,7 @@ fn built_in_scenes_use_every_switch() {
         mist.render.distance_sampling = distance_sampling;
         anywhere.extend(compiled_in(&[mist], &hardware, &PlanOptions::default()));
     }
+    anywhere.extend(compiled_in(&studied(), &hardware, &PlanOptions::default()));
     let missing: Vec<_> = every.filter(|name| !anywhere.contains(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");
 }

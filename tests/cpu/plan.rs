@@ -9,7 +9,10 @@ use gpt::plan::{
     DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanError, PlanOptions, RayQueryDefault, RayQueryLimits, StageMode,
     TraversalChoice,
 };
-use gpt::scene::{LightChoice, Scene, TransformStep};
+use gpt::scene::{
+    Estimator, LightChoice, MisHeuristic, PhongCosine, PhongHorizon, PhongSampling, PixelSampler, RenderSettings, SamplerKind,
+    Scene, TransformStep,
+};
 use gpt::shader::compose;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -319,6 +322,46 @@ fn the_number_of_cores_does_not_show() {
         let together = on(cores);
         assert_eq!(alone.hierarchy.nodes, together.hierarchy.nodes);
         assert!(alone.primitives == together.primitives);
+    }
+}
+
+/// Settings that are there to compare strategies leave no word in kernels of scenes that have nothing for them to change, and each does where it is
+/// something.
+#[test]
+fn what_is_studied_is_compiled_only_where_it_is() {
+    let texts = |name: &str, change: &dyn Fn(&mut RenderSettings)| -> Vec<String> {
+        let mut scene = load::load(Some(name)).expect("built-in scenes load");
+        change(&mut scene.render);
+        let plan = plan(&scene, &DeviceLimits::default()).expect("it fits");
+        plan.pipeline().map(|stage| compose(stage.file, &plan.switches).expect("it composes").text).collect()
+    };
+    let phong: [&dyn Fn(&mut RenderSettings); 3] = [
+        &|render| render.phong_cosine = PhongCosine::Dropped,
+        &|render| render.phong_sampling = PhongSampling::Hemisphere,
+        &|render| render.phong_horizon = PhongHorizon::Flipped,
+    ];
+    let others: [&dyn Fn(&mut RenderSettings); 5] = [
+        &|render| render.estimator = Estimator::Choose,
+        &|render| render.heuristic = MisHeuristic::Maximum,
+        &|render| render.heuristic_exponent = 3.0,
+        &|render| render.sampler = SamplerKind::Congruential,
+        &|render| render.pixel_sampler = PixelSampler::Other(SamplerKind::Congruential),
+    ];
+    let [without_lobes, with_lobes] = ["cornell", "stage"].map(|name| texts(name, &|_| ()));
+    for change in phong {
+        assert_eq!(texts("cornell", change), without_lobes);
+        assert_ne!(texts("stage", change), with_lobes);
+    }
+    for change in others {
+        assert_ne!(texts("cornell", change), without_lobes);
+    }
+    // Points are made on the host, whatever the sampler.
+    let by_halton = texts("cornell", &|render| render.sampler = SamplerKind::Halton);
+    assert_eq!(texts("cornell", &|render| render.sampler = SamplerKind::Hammersley), by_halton);
+    // None has a word of what is studied.
+    let words = ["lcg_bits4", "HEURISTIC_CUTOFF_BITS", "HEURISTIC_EXPONENT_BITS", "roulette_bits << 1u"];
+    for text in without_lobes.iter().chain(&with_lobes) {
+        assert!(words.iter().all(|word| !text.contains(word)), "{text}");
     }
 }
 

@@ -1,6 +1,6 @@
 // A cosine-power lobe about the mirror direction.
 #import core/math.wgsl
-#import shading/microfacet/cosine_power.wgsl
+#import shading/microfacet/phong_lobe.wgsl
 #import shading/material/lobe.wgsl
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
@@ -19,12 +19,11 @@ fn evaluate_glossy(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -
     if !on_wo_side(surface, wi) {
         return no_value();
     }
-    let pdf = cosine_power_pdf(mirrored(surface, wo), lobe.roughness, wi);
-    let scale = (lobe.roughness + 2.0) / (lobe.roughness + 1.0) * dot(wi, surface.shading_normal);
-    return BsdfValue(lobe.color0 * (pdf * scale), pdf);
+    let about = phong_lobe(surface, wo, lobe.roughness, wi);
+    return BsdfValue(lobe.color0 * about.value, about.pdf);
 }
 
 fn sample_glossy(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    let wi = sample_cosine_power(mirrored(surface, wo), lobe.roughness, u, v);
+    let wi = sample_phong_lobe(surface, wo, lobe.roughness, u, v);
     return from_value(wi, evaluate_glossy(lobe, surface, wo, wi), 1.0);
 }

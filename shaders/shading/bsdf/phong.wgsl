@@ -1,7 +1,7 @@
 // The modified Phong model: a diffuse lobe and a cosine-power lobe about the mirror direction.
 #import core/math.wgsl
-#import shading/microfacet/cosine_power.wgsl
 #import shading/microfacet/hemisphere.wgsl
+#import shading/microfacet/phong_lobe.wgsl
 #import shading/material/lobe.wgsl
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
@@ -25,19 +25,18 @@ fn evaluate_phong(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) ->
         return no_value();
     }
     let cosine = dot(wi, surface.shading_normal);
-    let specular_pdf = cosine_power_pdf(mirrored(surface, wo), lobe.roughness, wi);
-    let specular = lobe.color1 * (specular_pdf * (lobe.roughness + 2.0) / (lobe.roughness + 1.0));
+    let specular = phong_lobe(surface, wo, lobe.roughness, wi);
     let share = phong_specular_share(lobe);
     return BsdfValue(
-        (lobe.color0 * INVERSE_PI + specular) * cosine,
-        mix(hemisphere_pdf(cosine), specular_pdf, share)
+        lobe.color0 * (INVERSE_PI * cosine) + lobe.color1 * specular.value,
+        mix(hemisphere_pdf(cosine), specular.pdf, share)
     );
 }
 
 fn sample_phong(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
     var wi = vec3<f32>(0.0);
     if choice < phong_specular_share(lobe) {
-        wi = sample_cosine_power(mirrored(surface, wo), lobe.roughness, u, v);
+        wi = sample_phong_lobe(surface, wo, lobe.roughness, u, v);
     } else {
         wi = sample_hemisphere(surface, u, v).xyz;
     }

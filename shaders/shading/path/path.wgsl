@@ -207,7 +207,18 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
     let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
     let scatterer = scatterer_at(surface, phase, wo, uniform_float(more_random.w), key_of_stack(random.w, more_random.w));
-    let samples_light = HAS_LIGHTS && has_non_delta_scattering(scatterer) && !last_edge;
+    var samples_light = HAS_LIGHTS && has_non_delta_scattering(scatterer) && !last_edge;
+    var roulette_bits = more_random.z;
+    var goes_on = true;
+    if HAS_ESTIMATOR_CHOOSE {
+        if samples_light {
+            // The first bit chooses, with a chance of one half each; the others are left for roulette.
+            samples_light = (roulette_bits >> 31u) == 0u;
+            goes_on = !samples_light;
+            roulette_bits = roulette_bits << 1u;
+            incoming.throughput *= 2.0;
+        }
+    }
     var light = no_light();
     if samples_light {
         light = sample_light(shading_point(surface), facing_of(surface), random);
@@ -222,6 +233,11 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         shading.shaded = ShadedVertex(incoming, vertex, surface, scatterer);
     }
 
+    if HAS_ESTIMATOR_CHOOSE {
+        if !goes_on {
+            return shading;
+        }
+    }
     let drawn = scattering.drawn;
     if HAS_NULL_SURFACES && last_edge && !drawn.is_null {
         return shading;
@@ -237,7 +253,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         roulette_scale = roulette.scale;
         if depth >= ROULETTE_DEPTH {
             trace_roulette(roulette.survival);
-            if uniform_float(more_random.z) >= roulette.survival {
+            if uniform_float(roulette_bits) >= roulette.survival {
                 return shading;
             }
             throughput /= roulette.survival;

@@ -79,6 +79,9 @@ where vertices run counter-clockwise for triangles.
 - `version = 1`, above all tables, names the version of the format, which may be left out. A file of a newer version is refused.
 ";
 
+/// The line above keys that are there to compare strategies.
+const STUDY: &str = "**Study**: settings that are there to compare strategies ([figures.md](figures.md)).";
+
 /// The whole page; `remake` is the command that makes it.
 pub fn page(schema: &Value, remake: &str) -> String {
     let mut page = Page { schema, text: String::new(), sections: Vec::new() };
@@ -122,7 +125,13 @@ impl<'s> Page<'s> {
         let _ = writeln!(self.text, "{}", description(table));
         let variants: Vec<&Value> = entry_list(table, "oneOf").filter(|one| one["properties"].is_object()).collect();
         let Some(first) = variants.first() else {
-            let rows = self.rows(table, |_, _| true);
+            let is_study = |value: &Value| value["x-group"] == "study";
+            let rows = self.rows(table, |_, value| !is_study(value));
+            self.keys(&rows);
+            let rows = self.rows(table, |_, value| is_study(value));
+            if !rows.is_empty() {
+                let _ = writeln!(self.text, "\n{STUDY}");
+            }
             return self.keys(&rows);
         };
         // The key whose value chooses the variant comes first, then what all of them have.

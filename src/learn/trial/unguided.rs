@@ -11,9 +11,10 @@
 use super::sum::{Rays, Sum};
 use super::trial_path::Record;
 use crate::reference::bsdf::{BsdfSample, Density};
+use crate::reference::roulette;
 use crate::reference::trace::LightConnection;
-use crate::reference::{mis, roulette};
-use crate::scene::{Estimator, MisHeuristic, RenderSettings};
+use crate::sampling::mis::Heuristic;
+use crate::scene::{Estimator, RenderSettings};
 use crate::spectrum::Spectrum;
 
 /// Moments and rays of a sample, as guided paths estimate them.
@@ -39,7 +40,7 @@ impl Sum for UnguidedEstimate {
 /// A guided path, and what it would be without the guide.
 pub struct UnguidedRecord {
     estimator: Estimator,
-    heuristic: MisHeuristic,
+    heuristic: Heuristic,
     /// First depth at which roulette may end an unguided path.
     first_roulette: Option<u32>,
     /// How many times as likely the path is without the guide, up to where it stands.
@@ -60,6 +61,11 @@ pub struct UnguidedRecord {
 }
 
 impl UnguidedRecord {
+    /// Light that the path finds is shared with light samples.
+    fn shares(&self) -> bool {
+        matches!(self.estimator, Estimator::Mis | Estimator::Choose)
+    }
+
     /// Adds light that the path found; without the guide it has another weight.
     fn add(&mut self, contribution: Spectrum, [weight, unguided]: [f64; 2]) {
         if contribution.is_black() {
@@ -82,7 +88,7 @@ impl Record for UnguidedRecord {
     fn new(settings: &RenderSettings) -> Self {
         Self {
             estimator: settings.estimator,
-            heuristic: settings.heuristic,
+            heuristic: settings.into(),
             first_roulette: settings.first_roulette(false),
             density: 1.0,
             times: 1.0,
@@ -116,20 +122,15 @@ impl Record for UnguidedRecord {
 
     fn light(&mut self, connection: &LightConnection) {
         let LightConnection { light, bsdf_pdf, weight, contribution, .. } = connection;
-        let is_shared = !light.delta && self.estimator == Estimator::Mis;
-        let unguided = if is_shared { mis::weight(self.heuristic, light.pdf, bsdf_pdf * self.times) } else { *weight };
+        let is_shared = !light.delta && self.shares();
+        let unguided = if is_shared { self.heuristic.weight(light.pdf, bsdf_pdf * self.times) } else { *weight };
         self.add(*contribution, [*weight, unguided]);
     }
 
     fn found(&mut self, weight: f64, contribution: Spectrum) {
         let unguided = match self.previous {
-            (Density::SolidAngle(pdf), times) if self.estimator == Estimator::Mis && weight > 0.0 => {
-                let odds = (1.0 / weight - 1.0).max(0.0);
-                let light_pdf = match self.heuristic {
-                    MisHeuristic::Power => pdf * odds.sqrt(),
-                    MisHeuristic::Balance => pdf * odds,
-                };
-                mis::weight(self.heuristic, pdf * times, light_pdf)
+            (Density::SolidAngle(pdf), times) if self.shares() && weight > 0.0 => {
+                self.heuristic.weight(pdf * times, self.heuristic.least_other_pdf(pdf, weight))
             }
             _ => weight,
         };

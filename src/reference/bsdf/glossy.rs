@@ -2,11 +2,10 @@
 
 use glam::DVec3;
 
-use super::cosine_power::{lobe_over_cosine, sample_about};
 use super::lookup::Lookup;
+use super::phong_lobe::PhongLobe;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
-use crate::reference::warp;
 use crate::scene::MaterialKind;
 use crate::spectrum::Spectrum;
 
@@ -32,15 +31,14 @@ impl Scatter for Glossy {
         if !view.reflects(wi) {
             return Evaluation::default();
         }
-        let cos_alpha = wi.dot(view.mirrored());
-        let f = self.reflectance * lobe_over_cosine(self.exponent, cos_alpha);
-        Evaluation { value: f * wi.dot(view.normal()), pdf: warp::phong_lobe_pdf(self.exponent, cos_alpha) }
+        let (value, pdf) = PhongLobe { exponent: self.exponent }.evaluate(view, wi);
+        Evaluation { value: self.reflectance * value, pdf }
     }
 
     /// f·cosθ over the density leaves ρ·cosθ·(n+2)/(n+1). What falls below the horizon is lost.
     fn sample(&self, view: &View, _u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
-        let (wi, pdf) = sample_about(view.mirrored(), self.exponent, u1, u2);
-        let weight = self.reflectance * (wi.dot(view.normal()) * (self.exponent + 2.0) / (self.exponent + 1.0));
-        view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::SolidAngle(pdf)) })
+        let wi = PhongLobe { exponent: self.exponent }.sample(view, u1, u2);
+        let Evaluation { value, pdf } = self.evaluate(view, wi);
+        (pdf > 0.0).then_some(BsdfSample { weight: value / pdf, ..BsdfSample::reflected(wi, Density::SolidAngle(pdf)) })
     }
 }

@@ -6,6 +6,7 @@ use super::blend;
 use super::diffuse::Diffuse;
 use super::lobe::Lobe;
 use super::lookup::Lookup;
+use super::phong_study::PhongStudy;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::reference::intersect::{Surface, UvSet};
@@ -75,6 +76,7 @@ impl Bsdf {
             .with_unperturbed_normal(surface.unperturbed_normal)
             .with_coat_normal(surface.coat_normal)
             .with_hemisphere(scene.render.hemisphere)
+            .with_phong(PhongStudy::from(&scene.render))
             .with_tangents(surface.tangents)
             .with_second_tangents(surface.tangents_of(UvSet::Second));
         let view = if surface.is_mirrored { view.with_mirrored_normal(surface.shading_normal) } else { view };

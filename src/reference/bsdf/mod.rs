@@ -25,6 +25,8 @@ mod null;
 mod oren_nayar;
 mod phong;
 mod phong_glass;
+mod phong_lobe;
+mod phong_study;
 mod plastic;
 mod principled;
 mod principled_layers;

@@ -4,12 +4,11 @@ use std::f64::consts::FRAC_1_PI;
 
 use glam::DVec3;
 
-use super::cosine_power::{lobe_over_cosine, sample_about};
 use super::hemisphere::{hemisphere_pdf, sample_hemisphere};
 use super::lookup::Lookup;
+use super::phong_lobe::PhongLobe;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
-use crate::reference::warp;
 use crate::scene::MaterialKind;
 use crate::spectrum::Spectrum;
 
@@ -44,16 +43,16 @@ impl Scatter for Phong {
         if !view.reflects(wi) {
             return Evaluation::default();
         }
-        let (cos_theta, cos_alpha) = (wi.dot(view.normal()), wi.dot(view.mirrored()));
-        let f = self.diffuse * FRAC_1_PI + self.specular * lobe_over_cosine(self.exponent, cos_alpha);
+        let cos_theta = wi.dot(view.normal());
+        let (specular, specular_pdf) = PhongLobe { exponent: self.exponent }.evaluate(view, wi);
         let share = self.specular_share();
-        let pdf = share * warp::phong_lobe_pdf(self.exponent, cos_alpha) + (1.0 - share) * hemisphere_pdf(view, cos_theta);
-        Evaluation { value: f * cos_theta, pdf }
+        let pdf = share * specular_pdf + (1.0 - share) * hemisphere_pdf(view, cos_theta);
+        Evaluation { value: self.diffuse * (FRAC_1_PI * cos_theta) + self.specular * specular, pdf }
     }
 
     fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
         let wi = if u_lobe < self.specular_share() {
-            sample_about(view.mirrored(), self.exponent, u1, u2).0
+            PhongLobe { exponent: self.exponent }.sample(view, u1, u2)
         } else {
             view.frame.to_world(sample_hemisphere(view, u1, u2))
         };

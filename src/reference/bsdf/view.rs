@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::phong_study::PhongStudy;
 use crate::math::Frame;
 use crate::reference::intersect::{NormalTexel, Tangents, UvSet};
 use crate::scene::HemisphereSampling;
@@ -27,6 +28,8 @@ pub struct View {
     pub frame: Frame,
     /// How diffuse lobes are sampled.
     pub hemisphere: HemisphereSampling,
+    /// How the cosine-power lobes of `glossy` and `phong` are.
+    pub phong: PhongStudy,
     /// The directions in which texture coordinates grow, where they do.
     pub tangents: Option<Tangents>,
     /// Tangents by the second texture coordinates, or by the only ones.
@@ -50,6 +53,7 @@ impl View {
             carried: Spectrum::WHITE,
             frame,
             hemisphere,
+            phong: PhongStudy::default(),
             tangents: None,
             second_tangents: None,
             unperturbed_normal: None,
@@ -111,6 +115,10 @@ impl View {
 
     pub fn with_hemisphere(self, hemisphere: HemisphereSampling) -> Self {
         Self { hemisphere, ..self }
+    }
+
+    pub fn with_phong(self, phong: PhongStudy) -> Self {
+        Self { phong, ..self }
     }
 
     pub fn with_tangents(self, tangents: Option<Tangents>) -> Self {

@@ -103,7 +103,7 @@ fn the_hierarchy_agrees_on_what_moves_and_on_meshes() {
 #[test]
 fn every_estimator_sampler_and_heuristic_agrees() {
     let everywhere = in_full("every estimator with either sampler");
-    for (index, estimator) in [Estimator::Mis, Estimator::Nee, Estimator::Bsdf].into_iter().enumerate() {
+    for (index, estimator) in Estimator::ALL.into_iter().enumerate() {
         let pairs = [(SamplerKind::Halton, MisHeuristic::Power), (SamplerKind::Independent, MisHeuristic::Balance)];
         // The heuristic is of use to MIS alone.
         let is_taken = |other: usize| everywhere || index == 0 || index % 2 == other;

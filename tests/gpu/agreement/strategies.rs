@@ -149,6 +149,44 @@ fn another_camera_is_noticed() {
     }
 }
 
+/// Every setting by which strategies are compared, alone and together. A device that does without is noticed.
+#[test]
+fn what_is_studied_agrees() {
+    use gpt::scene::{Estimator, HemisphereSampling, MisHeuristic, PhongCosine, PhongHorizon, PhongSampling, RenderSettings};
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/figures/glossy-reflection.toml");
+    let mut plain = gpt::load::load(Some(file)).expect("it is valid");
+    verify::shrink(&mut plain, 32);
+    plain.render.spp = 8;
+    plain.render.max_depth = 4;
+    let changes: [(&str, fn(&mut RenderSettings)); 10] = [
+        ("choose", |render| render.estimator = Estimator::Choose),
+        ("choose, roulette, two light samples", |render| {
+            (render.estimator, render.roulette_depth, render.light_samples) = (Estimator::Choose, 1.into(), 2.into());
+        }),
+        ("maximum", |render| render.heuristic = MisHeuristic::Maximum),
+        ("cutoff", |render| render.heuristic = MisHeuristic::Cutoff),
+        ("exponent 0.7", |render| render.heuristic_exponent = 0.7),
+        ("exponent 64", |render| render.heuristic_exponent = 64.0),
+        ("without cosine", |render| render.phong_cosine = PhongCosine::Dropped),
+        ("by hemisphere", |render| render.phong_sampling = PhongSampling::Hemisphere),
+        ("flipped", |render| render.phong_horizon = PhongHorizon::Flipped),
+        ("all together", |render| {
+            (render.estimator, render.heuristic) = (Estimator::Choose, MisHeuristic::Cutoff);
+            (render.phong_cosine, render.phong_sampling) = (PhongCosine::Dropped, PhongSampling::Hemisphere);
+            (render.phong_horizon, render.hemisphere) = (PhongHorizon::Flipped, HemisphereSampling::Uniform);
+            render.sampler = SamplerKind::Congruential;
+        }),
+    ];
+    for (index, (what, change)) in changes.into_iter().enumerate() {
+        let mut scene = plain.clone();
+        change(&mut scene.render);
+        let stages = (index % 3 == 1).then_some(StageMode::Wavefront);
+        assert_agrees(what, &scene, &PlanOptions { stages, ..PlanOptions::default() });
+        let Some(verdict) = compare_unequal(&scene, &plain) else { return };
+        assert!(!verdict.agrees, "{what}: {verdict:#?}");
+    }
+}
+
 /// Diffuse lobes, alone and inside phong, over the uniform hemisphere. A device that samples the other one is noticed.
 #[test]
 fn uniform_hemispheres_agree() {

@@ -1,8 +1,9 @@
-//! Light samples, paths alone, and both together estimate one integral, so their means are one, on either device. A device that agrees with the
+//! Light samples, paths alone, both together, and one of both by chance estimate one integral, so their means are one, on either device. A device that agrees with the
 //! reference shares its mistakes; a way of sampling does not share those of another.
 
 mod media;
 mod scenes;
+mod study;
 
 use std::path::Path;
 
@@ -66,7 +67,7 @@ fn by_device(text: &str, estimator: Estimator, seed: u32, fault: Option<Fault>) 
 
 /// Every estimator on every device, by numbers of its own from `first_seed` on.
 fn all_ways(text: &str, first_seed: u32) -> Vec<Way> {
-    let numbered = (first_seed + 1..).zip([Estimator::Bsdf, Estimator::Nee, Estimator::Mis]);
+    let numbered = (first_seed + 1..).zip([Estimator::Bsdf, Estimator::Nee, Estimator::Mis, Estimator::Choose]);
     let both = |(seed, estimator)| [Some(by_reference(text, estimator, seed)), by_device(text, estimator, seed + 10, None)];
     numbered.flat_map(both).flatten().collect()
 }
@@ -83,8 +84,8 @@ fn worst_pair(ways: &[Way]) -> (f64, String) {
 /// Scenes of one test together reject what is true with this probability.
 const LEVEL: f64 = 1e-3;
 
-/// Pairs among six ways.
-const PAIRS: usize = 15;
+/// Pairs among eight ways.
+const PAIRS: usize = 28;
 
 /// Renders each scene in every way, and returns those whose means differ.
 fn disagreements(scenes: &[(String, Features)]) -> Vec<String> {

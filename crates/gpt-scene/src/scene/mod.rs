@@ -60,7 +60,8 @@ pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{
     BlendMode, DistanceSampling, Emitters, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice,
-    LightSampling, MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind,
+    LightSampling, MisHeuristic, NumberOrAuto, PhongCosine, PhongHorizon, PhongSampling, PixelSampler, RenderSettings,
+    SamplerKind,
 };
 pub use shape::*;
 pub use sources::{GridSource, ImageSource, MeshSource, Sources};

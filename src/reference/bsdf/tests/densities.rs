@@ -190,6 +190,72 @@ fn mixtures_are_the_sums_of_their_lobes() {
     }
 }
 
+/// Cosine-power lobes drawn over the hemisphere, and those whose directions below the surface are flipped, follow densities of their own.
+#[test]
+fn cosine_power_lobes_follow_the_density_of_their_study() {
+    let lost = PhongStudy::default();
+    let flipped = PhongStudy { horizon: PhongHorizon::Flipped, ..lost };
+    let by_hemisphere = PhongStudy { sampling: PhongSampling::Hemisphere, ..flipped };
+    let mut seeds = 21_u64..;
+    for lobe in [glossy(4.0), phong(0.3, 0.5, 12.0)] {
+        for (study, hemisphere) in [
+            (flipped, HemisphereSampling::Cosine),
+            (by_hemisphere, HemisphereSampling::Cosine),
+            (by_hemisphere, HemisphereSampling::Uniform),
+        ] {
+            for tilt in [0.0, 25.0] {
+                let plain = single(lobe, view(75.0, tilt));
+                let studied = single(lobe, view(75.0, tilt).with_phong(study).with_hemisphere(hemisphere));
+                let seed = seeds.next().expect("there are more seeds") << 32;
+                let samples = if tilt == 0.0 { 200_000 } else { 20_000 };
+                let report = follow(&studied, seed, samples);
+                assert!(report.passes(sidak(0.01, 12)), "{study:?} {hemisphere:?} {tilt}: {report:?}");
+                if tilt == 0.0 {
+                    let bins = SphereBins::with_cosine_edges(plain.view.normal(), &[0.2, 0.4, 0.6, 0.8], 4);
+                    let mixed_up = test_directional_sampler(
+                        &bins,
+                        samples,
+                        seed,
+                        |u| non_delta_part(&studied, u),
+                        |wi| plain.evaluate(wi).pdf,
+                    );
+                    assert!(!mixed_up.passes(1e-6), "{study:?} {hemisphere:?}: {mixed_up:?}");
+                }
+            }
+        }
+    }
+}
+
+/// By hand: a flipped lobe without its cosine sends on ρ(n+2)/(n+1) from wherever it is seen, and each sample is worth as much. What is lost below the
+/// horizon darkens it, and so does the cosine.
+#[test]
+fn what_a_flipped_lobe_without_its_cosine_sends_on_is_known() {
+    let dropped = PhongStudy { cosine: PhongCosine::Dropped, ..PhongStudy::default() };
+    let whole = PhongStudy { horizon: PhongHorizon::Flipped, ..dropped };
+    for exponent in [0.0, 1.0, 10.0, 300.0] {
+        for degrees in [5.0, 60.0, 85.0] {
+            let expected = Spectrum::new(0.4, 0.9, 0.6) * ((exponent + 2.0) / (exponent + 1.0));
+            let mean = |study: PhongStudy| {
+                let bsdf = single(glossy(exponent), view(degrees, 0.0).with_phong(study));
+                let weights: Vec<Spectrum> = cube_points(4000, 11)
+                    .map(|[u, v, w]| bsdf.sample(w, u, v).map_or(Spectrum::BLACK, |sample| sample.weight))
+                    .collect();
+                (weights.iter().copied().sum::<Spectrum>() / weights.len() as f64, weights)
+            };
+            let (albedo, weights) = mean(whole);
+            assert!(weights.iter().all(|weight| weight.distance(expected) < 1e-9), "{exponent}, {degrees}");
+            assert!(albedo.distance(expected) < 1e-9);
+            assert!(
+                mean(PhongStudy { horizon: PhongHorizon::Flipped, ..PhongStudy::default() }).0.max_component()
+                    < 0.999 * albedo.max_component()
+            );
+            if degrees > 80.0 {
+                assert!(mean(dropped).0.max_component() < 0.97 * albedo.max_component(), "{exponent}");
+            }
+        }
+    }
+}
+
 /// Diffuse lobes over the uniform hemisphere: samples follow the other density, and their mean weight is the same reflectance.
 #[test]
 fn uniform_hemispheres_have_their_own_density_and_the_same_reflectance() {

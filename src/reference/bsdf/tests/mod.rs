@@ -32,6 +32,7 @@ use super::mirror::Mirror;
 use super::null::Null;
 use super::phong::Phong;
 use super::phong_glass::PhongGlass;
+use super::phong_study::PhongStudy;
 use super::plastic::{Base, Plastic};
 use super::rough_glass::RoughGlass;
 use super::rough_plastic::RoughPlastic;
@@ -43,7 +44,8 @@ use crate::load::file::{EXAMPLE_MATERIALS, material_examples};
 use crate::load::load_toml_str;
 use crate::reference::intersect::Surface;
 use crate::scene::{
-    ColorInput, HemisphereSampling, LobeKind, Masking, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Scene,
+    ColorInput, HemisphereSampling, LobeKind, Masking, MaterialKind, MicrofacetDistribution, Microfacets, PhongCosine,
+    PhongHorizon, PhongSampling, PlasticInterface, Scene,
 };
 use crate::spectrum::Spectrum;
 

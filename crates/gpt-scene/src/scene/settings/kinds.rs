@@ -17,6 +17,10 @@ choices! {
         Sobol = "sobol",
         /// Study: strata for directions alone, in one random order for all surfaces of a path, entered one further at each.
         SharedStrata = "shared_strata",
+        /// Study: scrambled Hammersley set of as many points as there are samples per pixel.
+        Hammersley = "hammersley",
+        /// Study: linear congruential generator, from a start of its own for each path.
+        Congruential = "lcg",
     }
 
     /// How light sampling and BSDF sampling are used.
@@ -27,14 +31,20 @@ choices! {
         Nee = "nee",
         /// BSDF sampling alone.
         Bsdf = "bsdf",
+        /// Study: at each place one of the two, chosen at random and weighed as by `mis`; a path that chooses next event estimation ends with it.
+        Choose = "choose",
     }
 
     /// How multiple importance sampling weighs the two strategies (Veach 1997, section 9.2).
     pub enum MisHeuristic {
-        /// Power heuristic with β = 2.
+        /// Power heuristic: in proportion to the densities to the power of `heuristic_exponent`.
         Power = "power",
         /// Balance heuristic: in proportion to the densities.
         Balance = "balance",
+        /// Maximum heuristic: the larger density takes all.
+        Maximum = "maximum",
+        /// Cutoff heuristic: in proportion to the densities, but nothing for one that is less than `heuristic_cutoff` of the other.
+        Cutoff = "cutoff",
     }
 
     /// How the place is drawn where a medium scatters light.
@@ -53,6 +63,30 @@ choices! {
         Cosine = "cosine",
         /// One density in every direction.
         Uniform = "uniform",
+    }
+
+    /// The cosine of the rendering equation in the cosine-power lobes of `glossy` and `phong` (Honsdorf 2013, section 5.3).
+    pub enum PhongCosine {
+        /// The lobe's value times the cosine with the normal.
+        Kept = "kept",
+        /// The lobe's value alone: rims are brighter, and more light may leave than arrives.
+        Dropped = "dropped",
+    }
+
+    /// How directions of the cosine-power lobes of `glossy` and `phong` are drawn.
+    pub enum PhongSampling {
+        /// In proportion to the lobe.
+        Lobe = "lobe",
+        /// Without regard to the lobe, as over a diffuse surface: by `hemisphere`.
+        Hemisphere = "hemisphere",
+    }
+
+    /// The fate of directions that the cosine-power lobes of `glossy` and `phong` have below the surface.
+    pub enum PhongHorizon {
+        /// They are lost, and with them their light.
+        Lost = "lost",
+        /// They are turned to their opposite, which is above (Honsdorf 2013, appendix A, listing 7).
+        Flipped = "flipped",
     }
 
     /// How a point on a sphere, a rectangle or a triangle that is a light is drawn.

@@ -10,7 +10,7 @@ mod value;
 pub use film::{FilmSettings, Filter, FilterKind, LARGEST_FILTER_RADIUS, MAX_PIXELS, MAX_SIDE, SMALLEST_FILTER_RADIUS};
 pub use kinds::{
     BlendMode, DistanceSampling, Emitters, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic,
-    PixelSampler, SamplerKind,
+    PhongCosine, PhongHorizon, PhongSampling, PixelSampler, SamplerKind,
 };
 pub use number_or_auto::NumberOrAuto;
 pub use table::{Assignment, MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH, RenderSettings, SETTINGS, Setting};

@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 
 use super::kinds::{
     BlendMode, DistanceSampling, Emitters, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic,
-    PixelSampler, SamplerKind,
+    PhongCosine, PhongHorizon, PhongSampling, PixelSampler, SamplerKind,
 };
 use super::number_or_auto::{NumberOrAuto, auto};
 use super::row::settings;
@@ -31,6 +31,10 @@ const DEFAULT_ROULETTE_DEPTH: u32 = 5;
 /// The depth of roulette for guided paths, whose expected contribution is known.
 const GUIDED_ROULETTE_DEPTH: u32 = 2;
 
+/// Exponents of the power heuristic: at 0 a strategy would take half of what it cannot find; with the largest, the larger density takes all.
+const LEAST_HEURISTIC_EXPONENT: f64 = 0.1;
+const MOST_HEURISTIC_EXPONENT: f64 = 64.0;
+
 /// Largest radiance that samples may be clamped to: it is an f32 in shaders.
 const LARGEST_CLAMP: f64 = 1e18;
 
@@ -45,6 +49,7 @@ settings! {
             placeholder: "N",
             header: "gpt:samplesWanted",
             compared: false,
+            study: false,
         }
         /// Longest path in edges: 1 = only light seen directly, 2 = plus direct lighting, 0 = unlimited (Russian roulette ends paths).
         max_depth: u32 = 16 => {
@@ -53,6 +58,7 @@ settings! {
             placeholder: "N",
             header: "gpt:maxDepth",
             compared: false,
+            study: false,
         }
         /// The source of random numbers.
         sampler: SamplerKind = SamplerKind::Sobol => { // the one that measures best: docs/strategies.md
@@ -61,6 +67,7 @@ settings! {
             placeholder: "SAMPLER",
             header: "gpt:sampler",
             compared: true,
+            study: false,
         }
         /// The sampler of the position inside the pixel.
         pixel_sampler: PixelSampler = PixelSampler::SameAsPath => {
@@ -69,6 +76,7 @@ settings! {
             placeholder: "SAMPLER",
             header: "gpt:pixelSampler",
             compared: true,
+            study: false,
         }
         /// How light sampling and BSDF sampling are used.
         estimator: Estimator = Estimator::Mis => {
@@ -77,14 +85,7 @@ settings! {
             placeholder: "ESTIMATOR",
             header: "gpt:estimator",
             compared: true,
-        }
-        /// How multiple importance sampling weighs the two.
-        heuristic: MisHeuristic = MisHeuristic::Power => {
-            values: Names(MisHeuristic::NAMES),
-            flag: "--heuristic",
-            placeholder: "HEURISTIC",
-            header: "gpt:heuristic",
-            compared: true,
+            study: false,
         }
         /// How the place is drawn where a medium scatters light.
         distance_sampling: DistanceSampling = DistanceSampling::Mis => {
@@ -93,14 +94,7 @@ settings! {
             placeholder: "STRATEGY",
             header: "gpt:distanceSampling",
             compared: true,
-        }
-        /// How directions over a diffuse surface are drawn.
-        hemisphere: HemisphereSampling = HemisphereSampling::Cosine => {
-            values: Names(HemisphereSampling::NAMES),
-            flag: "--hemisphere",
-            placeholder: "HEMISPHERE",
-            header: "gpt:hemisphere",
-            compared: true,
+            study: false,
         }
         /// How a point on a sphere, a rectangle or a triangle that is a light is drawn.
         light_sampling: LightSampling = LightSampling::Auto => {
@@ -109,6 +103,7 @@ settings! {
             placeholder: "STRATEGY",
             header: "gpt:lightSampling",
             compared: true,
+            study: false,
         }
         /// How next event estimation chooses among lights.
         light_choice: LightChoice = LightChoice::Auto => {
@@ -117,6 +112,7 @@ settings! {
             placeholder: "CHOICE",
             header: "gpt:lightChoice",
             compared: true,
+            study: false,
         }
         /// Light samples at the first surfaces of a path; later surfaces take one. Several pay where direct light is most of the noise.
         light_samples: NumberOrAuto = NumberOrAuto::Auto => {
@@ -125,6 +121,7 @@ settings! {
             placeholder: "N",
             header: "gpt:lightSamples",
             compared: true,
+            study: false,
         }
         /// How many of a path's first surfaces take `light_samples`, where that is a number; counted by edges from the camera on.
         light_samples_depth: u32 = 1 => {
@@ -133,6 +130,7 @@ settings! {
             placeholder: "EDGES",
             header: "gpt:lightSamplesDepth",
             compared: true,
+            study: false,
         }
         /// Draw directions also by a guide, which up to a million paths learn before the first sample.
         guiding: Guiding = Guiding::Off => {
@@ -141,6 +139,7 @@ settings! {
             placeholder: "GUIDING",
             header: "gpt:guiding",
             compared: true,
+            study: false,
         }
         /// Paths of the last of five rounds in which a guide is learned, each of which has twice as many as the one before. Fewer are quicker; more give a better guide.
         guiding_paths: NumberOrAuto = NumberOrAuto::Auto => {
@@ -149,6 +148,7 @@ settings! {
             placeholder: "N",
             header: "gpt:guidingPaths",
             compared: true,
+            study: false,
         }
         /// The presence of light sources in the picture: seen by the camera, or hidden from it.
         emitters: Emitters = Emitters::Seen => {
@@ -157,14 +157,7 @@ settings! {
             placeholder: "EMITTERS",
             header: "gpt:emitters",
             compared: false,
-        }
-        /// How a path continues at a blend of materials.
-        blend: BlendMode = BlendMode::Mixture => {
-            values: Names(BlendMode::NAMES),
-            flag: "--blend",
-            placeholder: "MODE",
-            header: "gpt:blend",
-            compared: true,
+            study: false,
         }
         /// First depth at which Russian roulette may end a path; 0 = never.
         roulette_depth: NumberOrAuto = NumberOrAuto::Auto => {
@@ -173,6 +166,7 @@ settings! {
             placeholder: "N",
             header: "gpt:rouletteDepth",
             compared: true,
+            study: false,
         }
         /// Brightest channel that a sample may have; 0 = off. Brighter samples are darkened to it, which removes fireflies, but also real light.
         clamp: f64 = 0.0 => {
@@ -181,6 +175,7 @@ settings! {
             placeholder: "RADIANCE",
             header: "gpt:clamp",
             compared: false,
+            study: false,
         }
         /// Key of every random number.
         seed: u32 = 0 => {
@@ -189,6 +184,79 @@ settings! {
             placeholder: "N",
             header: "gpt:seed",
             compared: false,
+            study: false,
+        }
+        /// How multiple importance sampling weighs light samples and samples of the BSDF.
+        heuristic: MisHeuristic = MisHeuristic::Power => {
+            values: Names(MisHeuristic::NAMES),
+            flag: "--heuristic",
+            placeholder: "HEURISTIC",
+            header: "gpt:heuristic",
+            compared: true,
+            study: true,
+        }
+        /// Exponent β of the power heuristic.
+        heuristic_exponent: f64 = 2.0 => {
+            values: Real(LEAST_HEURISTIC_EXPONENT, MOST_HEURISTIC_EXPONENT),
+            flag: "--heuristic-exponent",
+            placeholder: "BETA",
+            header: "gpt:heuristicExponent",
+            compared: true,
+            study: true,
+        }
+        /// Threshold α of the cutoff heuristic: 0 is the balance heuristic, 1 the maximum heuristic.
+        heuristic_cutoff: f64 = 0.1 => {
+            values: Real(0.0, 1.0),
+            flag: "--heuristic-cutoff",
+            placeholder: "ALPHA",
+            header: "gpt:heuristicCutoff",
+            compared: true,
+            study: true,
+        }
+        /// How directions over a diffuse surface are drawn.
+        hemisphere: HemisphereSampling = HemisphereSampling::Cosine => {
+            values: Names(HemisphereSampling::NAMES),
+            flag: "--hemisphere",
+            placeholder: "HEMISPHERE",
+            header: "gpt:hemisphere",
+            compared: true,
+            study: true,
+        }
+        /// The cosine with the normal in the cosine-power lobes of `glossy` and `phong`.
+        phong_cosine: PhongCosine = PhongCosine::Kept => {
+            values: Names(PhongCosine::NAMES),
+            flag: "--phong-cosine",
+            placeholder: "COSINE",
+            header: "gpt:phongCosine",
+            compared: false,
+            study: true,
+        }
+        /// How directions of the cosine-power lobes of `glossy` and `phong` are drawn.
+        phong_sampling: PhongSampling = PhongSampling::Lobe => {
+            values: Names(PhongSampling::NAMES),
+            flag: "--phong-sampling",
+            placeholder: "SAMPLING",
+            header: "gpt:phongSampling",
+            compared: true,
+            study: true,
+        }
+        /// The fate of directions that these lobes have below the surface.
+        phong_horizon: PhongHorizon = PhongHorizon::Lost => {
+            values: Names(PhongHorizon::NAMES),
+            flag: "--phong-horizon",
+            placeholder: "HORIZON",
+            header: "gpt:phongHorizon",
+            compared: false,
+            study: true,
+        }
+        /// How a path continues at a blend of materials.
+        blend: BlendMode = BlendMode::Mixture => {
+            values: Names(BlendMode::NAMES),
+            flag: "--blend",
+            placeholder: "MODE",
+            header: "gpt:blend",
+            compared: true,
+            study: true,
         }
     }
 }
@@ -209,6 +277,8 @@ pub struct Setting {
     /// `gpt bench convergence` may compare its values. It cannot where the measurement itself decides the value, or where the value
     /// decides what picture comes out.
     pub compared: bool,
+    /// The setting is there to compare strategies. Help and documents list it apart.
+    pub study: bool,
     get: fn(&RenderSettings) -> Value,
     set: fn(&mut RenderSettings, Value),
 }
@@ -323,7 +393,9 @@ impl RenderSettings {
     /// Random numbers depend on how many samples there are in all: the first samples of many are not those of few.
     #[doc(hidden)]
     pub fn uses_strata(&self) -> bool {
-        [self.pixel_sampler, PixelSampler::Other(self.sampler)].contains(&PixelSampler::Other(SamplerKind::Stratified))
+        [self.pixel_sampler, PixelSampler::Other(self.sampler)]
+            .iter()
+            .any(|sampler| matches!(sampler, PixelSampler::Other(SamplerKind::Stratified | SamplerKind::Hammersley)))
     }
 
     /// Every setting with the value that counts: where the pixel's sampler is the path's, it has that one's name.

@@ -246,7 +246,7 @@ mod tests {
     fn names_are_chosen_from_a_list() {
         let samplers = Values::Names(SamplerKind::NAMES);
         assert_eq!(samplers.name("halton"), Ok(Value::Name("halton")));
-        let list = "one of independent, stratified, quadrant, halton, sobol, shared_strata";
+        let list = "one of independent, stratified, quadrant, halton, sobol, shared_strata, hammersley, lcg";
         assert_eq!(samplers.name("Halton"), Err(list.to_owned()));
         assert_eq!(samplers.number(1), Err(list.to_owned()));
         for kind in SamplerKind::ALL {

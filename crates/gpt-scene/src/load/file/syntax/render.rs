@@ -139,7 +139,7 @@ impl JsonSchema for RenderTable {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let properties: Map<String, serde_json::Value> =
-            SETTINGS.iter().map(|setting| (setting.name.to_owned(), property(setting))).collect();
+            SETTINGS.iter().map(|setting| (setting.name.to_owned(), grouped_property(setting))).collect();
         json_schema!({
             "description": "How radiance is estimated. Command-line flags override these.",
             "type": "object",
@@ -148,6 +148,18 @@ impl JsonSchema for RenderTable {
         })
     }
 }
+
+/// The property; settings that serve comparison alone say so, for the page that is made of the schema.
+fn grouped_property(setting: &Setting) -> serde_json::Value {
+    let mut property = property(setting);
+    if setting.study {
+        property[GROUP] = "study".into();
+    }
+    property
+}
+
+/// The key of a property that names its group.
+const GROUP: &str = "x-group";
 
 fn property(setting: &Setting) -> serde_json::Value {
     let description = setting.help();
