@@ -158,7 +158,8 @@ fn what_is_studied_agrees() {
     verify::shrink(&mut plain, 32);
     plain.render.spp = 8;
     plain.render.max_depth = 4;
-    let changes: [(&str, fn(&mut RenderSettings)); 10] = [
+    type Change = fn(&mut RenderSettings);
+    let changes: [(&str, Change); 10] = [
         ("choose", |render| render.estimator = Estimator::Choose),
         ("choose, roulette, two light samples", |render| {
             (render.estimator, render.roulette_depth, render.light_samples) = (Estimator::Choose, 1.into(), 2.into());
