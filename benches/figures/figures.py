@@ -163,9 +163,9 @@ def layers():
         real = Way("layers", [], close)
         ways = [real, Way("blend", [], close | blended), Way("Weidlich and Wilkie", [], close | straight)]
         figure = f"layers, {paint}"
-        truths = references("paints", real, 2048)
+        truths = references("paints", real, 1024)
         spent = seconds(figure, "paints", ways, 64)
-        errors = [error(figure, "paints", way, 1024, truths)[1] for way in ways[1:]]
+        errors = [error(figure, "paints", way, 512, truths)[1] for way in ways[1:]]
         noise = [error(figure, "paints", way, 16, truths)[1] for way in ways[:1]]
         ratio = [spent[way.name] / spent["layers"] for way in ways[1:]]
         rows.append([paint, f"{noise[0]:.2e}", *(f"{wrong:.2e}, {share:.2f}" for wrong, share in zip(errors, ratio))])

@@ -307,7 +307,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("SUBGROUP_QUEUES"),
     switch("TAKEN_PIXELS").excludes(&["TRACE"]),
     // The directions of texture coordinates matter to some lobe.
-    switch("TANGENTS").requires(&["FURTHER_PARAMETERS"]),
+    switch("TANGENTS").one_of(&["BENT_LAYERS", "FURTHER_PARAMETERS"]),
     switch("TEXELS"),
     switch("TEXELS_IN_BYTES").requires(&["IMAGES"]),
     switch("TEXELS_IN_FLOATS").requires(&["IMAGES"]),
