@@ -59,7 +59,7 @@ fn settle_baked(scene: &Scene) -> Result<Settled<'_>, RenderError> {
 }
 
 impl Settled<'_> {
-    /// The same with a scene of its own.
+    /// A copy of it with a scene of its own.
     fn into_owned(self) -> Settled<'static> {
         let Self { scene, because, light_cells, guide, depends_on_view, integrator, chose_cells } = self;
         let scene = Cow::Owned(scene.into_owned());

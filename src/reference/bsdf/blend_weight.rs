@@ -20,7 +20,7 @@ pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {
         BlendWeight::Front => f64::from(u8::from(lookup.front)),
         BlendWeight::Camera => f64::from(u8::from(lookup.by_camera)),
         BlendWeight::Up { axis, power } => lookup.normal.dot(axis).clamp(0.0, 1.0).powf(power),
-        // What is baked is a texture.
+        // A baked one is a texture.
         BlendWeight::Open { .. } => 1.0,
         BlendWeight::Texture { texture } => {
             texture::look_up(&lookup.scene.textures, texture, lookup.uv).luminance().clamp(0.0, 1.0)

@@ -11,8 +11,9 @@ use super::view::View;
 use crate::scene::{MaterialKind, RoughDiffuseModel};
 use crate::spectrum::Spectrum;
 
-/// Of the light that white facets lose, seen along the normal, and on average over all directions: ½ − 2/(3π), and 2/3 − 28/(15π) less than that.
+/// The light that white facets lose, seen along the normal, over A·σ.
 const LOST_AT_NORMAL: f64 = 0.5 - 2.0 / (3.0 * PI);
+/// By how much less they lose on average over all directions.
 const LESS_ON_AVERAGE: f64 = 2.0 / 3.0 - 28.0 / (15.0 * PI);
 
 /// f = ρ/π·A·(1 + σ·s/t) and a part that scatters evenly what is lost (Portsmouth, Kutz and Hill 2025): with s = wo·wi − cos θo·cos θi,

@@ -1,4 +1,4 @@
-//! What lobes have in common that scatter broadly and whose directions are drawn as Lambert's are.
+//! The common part of lobes that scatter broadly and whose directions are drawn as Lambert's are.
 
 use glam::DVec3;
 

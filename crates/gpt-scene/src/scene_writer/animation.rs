@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DVec3};
 
-use super::material;
 use super::shape::transform_step;
 use crate::load::file::strength_key;
-use crate::load::file::writer::{Names, Writer, colour, direction, line, list, number, table, text, vector};
+use crate::load::file::writer::{Names, colour, direction, line, list, number, table, text, vector};
 use crate::scene::animation::{
     CameraTrack, Curve, FRAMES_PER_SECOND, Interpolation, LightTrack, MaterialTrack, Node, ShapeTrack, TransformTrack,
 };
@@ -80,8 +79,8 @@ pub fn light(track: &LightTrack, light: &Light, nodes: &Names) -> String {
     taken_along("node", track.node, nodes) + &keyframes(&written, track.position.interpolation)
 }
 
-/// Keyframes of a material.
-pub fn material(track: &MaterialTrack, rest: &Material, writer: &Writer<'_>) -> String {
+/// Keyframes of a material. `keyed` writes the keys that keyframes may state, each with its value.
+pub fn material(track: &MaterialTrack, rest: &Material, keyed: impl Fn(&Material) -> BTreeMap<String, String>) -> String {
     let form = track.with_all_numbers(rest);
     let mut written: BTreeMap<String, Vec<(f64, String)>> = BTreeMap::new();
     let mut frames: Vec<f64> = track.frames().collect();
@@ -95,9 +94,9 @@ pub fn material(track: &MaterialTrack, rest: &Material, writer: &Writer<'_>) -> 
                 (numbers[*number], nudged[*number]) = (key.value, nudge(key.value));
             }
         }
-        let at = material::keyed(&form.with_numbers(&numbers), writer);
+        let at = keyed(&form.with_numbers(&numbers));
         // Keys that stand for numbers with a key at this frame change with them. One that has its default is not written, so it is a little off.
-        for (key, other) in material::keyed(&form.with_numbers(&nudged), writer) {
+        for (key, other) in keyed(&form.with_numbers(&nudged)) {
             if at.get(&key) != Some(&other) {
                 let value = at.get(&key).unwrap_or(&other).clone();
                 written.entry(key).or_default().push((frame, value));

@@ -42,7 +42,7 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
         out += &line("two_sided", "false");
     }
     let tracks = writer.scene.animation.materials.iter().filter(|track| track.material == id);
-    tracks.for_each(|track| out += &animation::material(track, material, writer));
+    tracks.for_each(|track| out += &animation::material(track, material, |at| keyed(at, writer)));
     out
 }
 
@@ -52,7 +52,7 @@ fn radiance_key(kind: &MaterialKind) -> &'static str {
 }
 
 /// The keys that keyframes may state, each with its value.
-pub(super) fn keyed(material: &Material, writer: &Writer<'_>) -> BTreeMap<String, String> {
+fn keyed(material: &Material, writer: &Writer<'_>) -> BTreeMap<String, String> {
     let radiance = material.emission.map(|emission| writer.input(radiance_key(&material.kind), &emission.radiance));
     let lines = write_kind(&material.kind, writer) + &radiance.unwrap_or_default();
     lines.lines().filter_map(|line| line.split_once(" = ")).map(|(key, value)| (key.to_owned(), value.to_owned())).collect()

@@ -212,7 +212,7 @@ fn roughness_weights_and_emission_have_keys() {
     let MaterialKind::Blend { ref weight, .. } = at.materials[2].kind else { panic!("a blend") };
     let halfway = BlendWeight::Threshold { tau: 0.5, of: Box::new(BlendWeight::Facing { power: 2.0 }) };
     assert_eq!(*weight, halfway);
-    // What is keyed is the metal, which a blend with nothing stands for.
+    // The metal is keyed, which a blend with nothing stands for.
     let metal = at.materials[0].parts()[0];
     let MaterialKind::Conductor { facets, .. } = &at.materials[metal].kind else { panic!("{:?}", at.materials[metal]) };
     assert!((constant(facets.alpha).r() - 0.16).abs() < 1e-12, "{facets:?}");

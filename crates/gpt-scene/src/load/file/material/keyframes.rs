@@ -1,36 +1,11 @@
 //! Keyframes of materials: any of a material's own keys, and its emission, at frames.
 
-use super::keys::{CommonKeys, MaterialKeys};
+use super::keys::{KeyedMaterial, MaterialKeyframe};
 use crate::load::error::SceneError;
-use crate::load::file::keyframes::InterpolationName;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Located, Number};
+use crate::load::file::value::Located;
 use crate::scene::animation::{Curve, Interpolation, Key, MaterialTrack};
 use crate::scene::{ColorInput, Emission, Material};
-
-/// A material's keys, of which keyframes state some.
-pub trait KeyedMaterial: MaterialKeys + Sized {
-    type Keyframe: MaterialKeyframe;
-
-    fn keyframes(&self) -> Option<&Located<Vec<Located<Self::Keyframe>>>>;
-
-    fn interpolation(&self) -> Option<&Located<InterpolationName>>;
-
-    /// The keys with those in their place that the keyframe states and that are chosen by their names.
-    fn at(&self, keyframe: &Self::Keyframe, chosen: &dyn Fn(&str) -> bool) -> Self;
-
-    /// The keys that every material has.
-    fn shared(&self) -> CommonKeys<'_>;
-}
-
-/// Keys of a material at a frame.
-pub trait MaterialKeyframe {
-    /// `frame` and `time`.
-    fn times(&self) -> (Option<Number>, Option<Number>);
-
-    /// The names of the keys that it states.
-    fn stated(&self) -> Vec<&'static str>;
-}
 
 /// The numbers of a material at frames; None where it has no keyframes.
 ///

@@ -3,6 +3,7 @@
 use super::opacity::Opacity;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
+use crate::load::file::keyframes::InterpolationName;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative, Number};
@@ -41,6 +42,30 @@ pub trait MaterialKeys {
     fn check_parts(&self, _resolver: &Resolver<'_>) -> Result<(), SceneError> {
         Ok(())
     }
+}
+
+/// A material's keys, of which keyframes state some.
+pub trait KeyedMaterial: MaterialKeys + Sized {
+    type Keyframe: MaterialKeyframe;
+
+    fn keyframes(&self) -> Option<&Located<Vec<Located<Self::Keyframe>>>>;
+
+    fn interpolation(&self) -> Option<&Located<InterpolationName>>;
+
+    /// The keys with those in their place that the keyframe states and that are chosen by their names.
+    fn at(&self, keyframe: &Self::Keyframe, chosen: &dyn Fn(&str) -> bool) -> Self;
+
+    /// The keys that every material has.
+    fn shared(&self) -> CommonKeys<'_>;
+}
+
+/// Keys of a material at a frame.
+pub trait MaterialKeyframe {
+    /// `frame` and `time`.
+    fn times(&self) -> (Option<Number>, Option<Number>);
+
+    /// The names of the keys that it states.
+    fn stated(&self) -> Vec<&'static str>;
 }
 
 /// None where no light is sent out.
@@ -157,7 +182,7 @@ macro_rules! material_keys {
             >>,
         }
 
-        impl $crate::load::file::material::keyframes::MaterialKeyframe for Keyframe {
+        impl $crate::load::file::material::keys::MaterialKeyframe for Keyframe {
             fn times(&self) -> (Option<$crate::load::file::value::Number>, Option<$crate::load::file::value::Number>) {
                 (self.frame, self.time)
             }
@@ -168,7 +193,7 @@ macro_rules! material_keys {
             }
         }
 
-        impl $crate::load::file::material::keyframes::KeyedMaterial for Keys {
+        impl $crate::load::file::material::keys::KeyedMaterial for Keys {
             type Keyframe = Keyframe;
 
             fn keyframes(&self) -> Option<&$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<Keyframe>>>> {

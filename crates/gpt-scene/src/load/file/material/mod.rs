@@ -83,7 +83,7 @@ macro_rules! entries {
                 match self { $(Self::$material(keys) => keys.two_sided(&keys.common(), resolver),)* }
             }
 
-            /// What its keyframes make of the material of this index.
+            /// The material of this index at frames, by its keyframes.
             pub fn track(&self, id: usize, resolver: &Resolver<'_>) -> Result<Option<MaterialTrack>, SceneError> {
                 match self { $(Self::$material(keys) => keyframes::track(&**keys, id, resolver),)* }
             }
