@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::error::PackError;
-use super::material::color_and_texture;
 use super::medium::PackedMedia;
+use super::texture::color_and_texture;
 use crate::scene::{Filling, FlatLayer, LayerModel, LayerStack, MaterialId, MaterialKind, Scene};
 use crate::shader::shared::shared_constants;
 
@@ -124,7 +124,7 @@ pub fn with_interfaces(scene: &Scene, of_surfaces: impl Iterator<Item = Material
 }
 
 impl PackedLayer {
-    /// It mentions a texture.
+    /// The mention of a texture.
     pub fn texture_mut(&mut self) -> &mut u32 {
         &mut self.thickness_texture
     }

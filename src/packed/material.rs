@@ -10,7 +10,7 @@ use super::constants::NONE;
 use super::error::PackError;
 use super::layers::{LAYERS_STRAIGHT, LayerRun, PackedLayer, with_interfaces};
 use super::medium::PackedMedia;
-use super::texture::mention;
+use super::texture::{color_and_texture, mention};
 use crate::scene::material::{self, AlbedoTable};
 use crate::scene::{
     BlendMode, Channel, ChannelInput, ColorInput, LayerStack, LobeKind, Masking, Material, MaterialId, MaterialKind, Media, Scene,
@@ -99,7 +99,7 @@ pub struct PackedMaterial {
     /// [`LobeParameters::color1`](crate::scene::LobeParameters). Of a blend, as bits: its first part, their number, and the number of inner
     /// blends behind them that emit by themselves. Of a stack: its first layer, and their number with its flags.
     pub color1: [f32; 3],
-    /// Of a stack, its largest breadth.
+    /// A stack has its largest breadth here.
     pub ior: f32,
     pub emission: [f32; 3],
     /// Flags of the two sides: which emit, and which scatter nothing.
@@ -178,18 +178,6 @@ pub struct PackedMaterials {
     /// The layers of all stacks.
     pub layers: Vec<PackedLayer>,
     pub weights: Vec<PackedBlendWeight>,
-}
-
-/// A colour as a constant factor and a texture index or NONE.
-pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
-    match input {
-        ColorInput::Constant(color) => (color.to_f32(), NONE),
-        ColorInput::Texture(texture) => ([1.0; 3], *texture as u32),
-        ColorInput::ScaledTexture(texture, factor) => (factor.to_f32(), *texture as u32),
-        // That it is squared stands beside the scalar it is for: colours never are.
-        ColorInput::SquaredTexture(texture) => ([1.0; 3], *texture as u32),
-        ColorInput::Channel(input) => (input.factor.to_f32(), mention(input.texture, Some(input.channel))),
-    }
 }
 
 /// A scalar as a constant factor, a texture index or NONE, and 1 where what they give together is squared.
@@ -485,7 +473,7 @@ impl PackedMaterial {
         self.kind_and_form >> FORM_SHIFT & form != 0
     }
 
-    /// Of a stack, whether light goes straight down and up in it.
+    /// Says of a stack that light goes straight down and up in it, or not.
     pub fn is_straight_stack(&self) -> Option<bool> {
         (self.kind() == LAYERED).then(|| self.color1[1].to_bits() & LAYERS_STRAIGHT != 0)
     }

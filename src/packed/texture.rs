@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::constants::NONE;
 use super::error::PackError;
 use crate::scene::image::Code;
 use crate::scene::{
-    Channel, ImageData, ImageTexture, Relief, Scene, Texels, Texture, TextureFilter, TextureId, TextureKind, TextureWrap,
-    VoxelGrid,
+    Channel, ColorInput, ImageData, ImageTexture, Relief, Scene, Texels, Texture, TextureFilter, TextureId, TextureKind,
+    TextureWrap, VoxelGrid,
 };
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 use crate::spectrum::Spectrum;
@@ -128,6 +129,18 @@ pub struct PackedTextures {
     /// Words behind the records: values of the integers in images, then the environment map and its
     /// distribution.
     pub words: Vec<u32>,
+}
+
+/// A colour as a constant factor and a texture index or NONE.
+pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
+    match input {
+        ColorInput::Constant(color) => (color.to_f32(), NONE),
+        ColorInput::Texture(texture) => ([1.0; 3], *texture as u32),
+        ColorInput::ScaledTexture(texture, factor) => (factor.to_f32(), *texture as u32),
+        // That it is squared stands beside the scalar it is for: colours never are.
+        ColorInput::SquaredTexture(texture) => ([1.0; 3], *texture as u32),
+        ColorInput::Channel(input) => (input.factor.to_f32(), mention(input.texture, Some(input.channel))),
+    }
 }
 
 /// A texture, or one channel of it, as records mention it until textures are packed.

@@ -39,7 +39,7 @@ fn choose_stack(surface: Surface, bsdf: Bsdf, wo: vec3<f32>, choice: f32, key: u
 #else
     let seen = seen_along(surface, wo);
     let run = part_run(surface.material);
-    // Of several stacks one is chosen by its weight, and stands for all.
+    // One of several stacks is chosen by its weight, and stands for all.
     var total = 0.0;
     var below = 0.0;
     var material = NONE;

@@ -9,9 +9,10 @@ use super::record::{
 };
 use crate::emission_map::{EmissionMaps, EmitterPart};
 use crate::packed::attributes::TriangleAttributes;
-use crate::packed::material::{color_and_texture, mean_emission};
+use crate::packed::material::mean_emission;
 use crate::packed::primitive::WorldPrimitive;
 use crate::packed::shape::PrimitiveKind;
+use crate::packed::texture::color_and_texture;
 use crate::sampling::solid_angle::is_rectangle;
 use crate::scene::texture::{mean_of_channel, mean_of_texture};
 use crate::scene::{ChannelInput, ColorInput, LightSampling, Scene};

@@ -93,7 +93,7 @@ impl Stack<'_> {
         }
     }
 
-    /// What a scattering of the slab adds that joins both ways.
+    /// The part of the sum by a scattering of the slab that joins both ways.
     fn joined_in(&self, slab: &SlabAtHit, walker: &Walker, segment: &Segment) -> Spectrum {
         let other = &segment.walker;
         if other.gap != walker.gap || other.breadth >= slab.breadth || walker.breadth > slab.breadth {

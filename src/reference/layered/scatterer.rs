@@ -127,7 +127,7 @@ impl<'a> WeightedStack<'a> {
             let picked = pick(&lookup, material, u_blend).filter(|&(_, two_sided)| two_sided || view.front);
             return picked.and_then(|(id, _)| stack(id)).map(|stack| Self { stack, weight: 1.0, probability: 1.0, key });
         }
-        // Of several stacks one is chosen by its weight, and stands for all.
+        // One of several stacks is chosen by its weight, and stands for all.
         let mut total = 0.0;
         let each = |visit: &mut dyn FnMut(MaterialId, f64)| {
             blend::for_each_sided_part(&lookup, material, |id, weight, two_sided| {

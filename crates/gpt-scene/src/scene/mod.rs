@@ -12,6 +12,7 @@ mod boundaries;
 pub mod camera;
 mod check;
 mod digest;
+mod flat_layers;
 mod frame;
 pub mod image;
 mod import_report;
@@ -41,6 +42,7 @@ pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, EXPOSURE_STRETCHES, Projection};
 pub use check::FARTHEST;
 pub use digest::{BulkDigest, digest};
+pub use flat_layers::FlatLayer;
 pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};
 pub use instance::{Group, Instances, is_singular};
@@ -49,7 +51,7 @@ pub use light::{
     OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
 pub use material::{
-    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, FlatLayer, LayerModel, LayerStack, LobeKind,
+    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, LayerModel, LayerStack, LobeKind,
     LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets,
     PlasticInterface, Principled, RoughDiffuseModel, Slab, Subsurface, ThinFilm,
 };

@@ -339,7 +339,7 @@ fn stacks_are_reciprocal() {
     }
 }
 
-/// What is taken for the density of walks integrates to about 1 where nothing is lost, and Weidlich and Wilkie's density is that of its own samples.
+/// Weidlich and Wilkie's density is that of its own samples.
 #[test]
 fn densities_are_those_of_samples() {
     let probe =

@@ -28,7 +28,7 @@ impl Microfacets {
     }
 
     /// The surface is smooth everywhere.
-    pub(super) fn are_smooth(&self) -> bool {
+    pub fn are_smooth(&self) -> bool {
         let is_smooth = |alpha: ColorInput| matches!(alpha, ColorInput::Constant(alpha) if alpha.r() < DELTA_ALPHA);
         is_smooth(self.alpha) && self.alpha_v.is_none_or(is_smooth)
     }

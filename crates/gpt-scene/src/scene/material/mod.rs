@@ -23,7 +23,7 @@ pub use kind::{
     DIFFUSE_TRANSMITS, DIRECTED, DISPERSED, FORMS, LobeParameters, MaterialKind, NONLINEAR, RoughDiffuseModel, SEPARABLE_MASKING,
     SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_FILM, THIN_WALL, TRANSMITS, UNTINTED,
 };
-pub use layers::{FlatLayer, LayerModel, LayerStack, MOST_INTERFACES, Slab};
+pub use layers::{LayerModel, LayerStack, MOST_INTERFACES, Slab};
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use parameters::{Parameter, ParameterType};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};

@@ -132,7 +132,7 @@ impl MaterialEntry {
     }
 }
 
-/// What the examples of materials that are made of others name, as TOML.
+/// Materials and a medium that examples of other materials name, as TOML.
 pub const EXAMPLE_MATERIALS: &str = r#"
 [[medium]]
 name = "pigment"
