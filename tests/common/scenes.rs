@@ -6,10 +6,11 @@ pub const ENOUGH: [&str; 4] = ["examples", "terrace", "bazaar", "arbour"];
 
 /// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
 /// `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 37] = [
+pub const ELSEWHERE: [&str; 38] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
+    "BENT_LAYERS",
     "BUMP_MAPS",
     "COAT_NORMALS",
     "ESTIMATOR_NEE",

@@ -269,7 +269,8 @@ fn the_integral_of_x_cubed() {
             // 63 degrees of freedom: a standard deviation is within 35 % of its estimate in all but 1 of 10⁴ cases.
             assert!((random.variance().sqrt() / standard_error - 1.0).abs() < 0.35, "{count}: {}", random.variance().sqrt());
         }
-        let random = [SamplerKind::Independent, SamplerKind::Congruential];
+        // Strata that are shared are those of directions alone.
+        let random = [SamplerKind::Independent, SamplerKind::Congruential, SamplerKind::SharedStrata];
         for kind in SamplerKind::ALL.into_iter().filter(|kind| !random.contains(kind)) {
             for (even, standard_error) in deviations(kind).iter().zip(standard_errors) {
                 assert!((even.mean() - 0.25).abs() < 4.0 * standard_error / 8.0, "{kind:?}, {count}: {}", even.mean());

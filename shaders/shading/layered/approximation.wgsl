@@ -5,8 +5,10 @@
 #import shading/layered/stack.wgsl
 #import shading/material/bsdf.wgsl
 #import shading/material/scattering.wgsl
+#import shading/medium/medium.wgsl
 #import shading/microfacet/dielectric.wgsl
 #import shading/microfacet/fresnel.wgsl
+#import shading/surface.wgsl
 
 // The part of walks that is taken to leave the stack evenly, where slabs scatter and where they do not.
 const EVEN_SHARE_OF_SLABS: f32 = 0.5;

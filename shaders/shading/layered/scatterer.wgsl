@@ -10,6 +10,7 @@
 #import shading/material/bsdf.wgsl
 #import shading/material/scattering.wgsl
 #import shading/sides.wgsl
+#import shading/surface.wgsl
 
 // Tells the numbers of walks that draw from those that choose a stack.
 const DRAW_KEY: u32 = 0x5851f42du;

@@ -4,7 +4,8 @@
 #import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/surface.wgsl
-#import shading/medium/medium.wgsl
+#import shading/material/lobe.wgsl
+#import shading/shape_point.wgsl
 #import shading/texture/tangent_space.wgsl
 #import shading/texture/texture.wgsl
 

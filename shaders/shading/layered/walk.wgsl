@@ -7,6 +7,9 @@
 #import shading/layered/walker.wgsl
 #import shading/material/bsdf.wgsl
 #import shading/material/scattering.wgsl
+#import shading/medium/medium.wgsl
+#import shading/medium/phase.wgsl
+#import shading/surface.wgsl
 
 // A straight piece of the way from the light, at which the way from wo may be joined.
 struct Piece {

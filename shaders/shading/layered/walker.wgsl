@@ -1,10 +1,14 @@
 // A way of light through a stack, step by step. src/reference/layered/walker.rs is the same in f64.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/stream.wgsl
 #import shading/layered/stack.wgsl
+#import shading/light/place.wgsl
 #import shading/material/scattering.wgsl
 #import shading/medium/free_flight.wgsl
+#import shading/medium/medium.wgsl
 #import shading/medium/phase.wgsl
+#import shading/surface.wgsl
 
 // Events after which chance may end a way, and after which it does so at least now and then.
 const FIRST_LAYER_ROULETTE: u32 = 4u;

@@ -1,6 +1,7 @@
 // Scattering at a surface: its BSDF, and the guide where paths are guided, with the shadowing term of mapped
 // normals. Within a medium: its phase function. src/reference/scatterer.rs is the same in f64.
 #import core/layout.wgsl
+#import core/sampler.wgsl
 #import shading/material/bsdf.wgsl
 #import shading/material/scattering.wgsl
 #import shading/surface.wgsl

@@ -18,7 +18,7 @@ fn films_and_cameras_that_cannot_be_are_refused() {
         (
             "spp = 1",
             "pixel_sampler = \"nothing\"",
-            "test.toml:5:17: render.pixel_sampler: `nothing` is not a valid choice [valid choices: independent, stratified, quadrant, halton, sobol, none, same]",
+            "test.toml:5:17: render.pixel_sampler: `nothing` is not a valid choice [valid choices: independent, stratified, quadrant, halton, sobol, shared_strata, hammersley, lcg, none, same]",
         ),
         (
             "spp = 1",

@@ -27,7 +27,7 @@ fn unknown_keys_types_and_names_are_answered_with_the_valid_choices() {
             "reflectance = 0.5",
             "reflectence = 0.5",
             "test.toml:13:1: material[0].reflectence: unknown key `reflectence` [did you mean `reflectance`? valid choices: name, \
-             reflectance, normal_map, normal_scale, bump_map, bump_scale, normal_shadowing, normal_mirroring, emission, emission_two_sided, opacity, interior, two_sided]",
+             reflectance, normal_map, normal_scale, bump_map, bump_scale, normal_shadowing, normal_mirroring, emission, emission_two_sided, opacity, interior, keyframes, interpolation, two_sided]",
         ),
         ("type = \"diffuse\"", "type = \"diffusse\"", &of_materials),
         ("type = \"sphere\"", "", &of_shapes),
@@ -84,7 +84,7 @@ fn values_of_another_type_are_told_from_what_is_expected() {
         (
             "spp = 1",
             "estimator = 3",
-            "test.toml:5:13: render.estimator: invalid type: integer `3`, expected one of mis, nee, bsdf",
+            "test.toml:5:13: render.estimator: invalid type: integer `3`, expected one of mis, nee, bsdf, choose",
         ),
         ("spp = 1", "seed = [1]", "test.toml:5:8: render.seed: invalid type: array, expected a whole number of at least 0"),
         (

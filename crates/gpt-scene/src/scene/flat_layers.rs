@@ -129,6 +129,15 @@ impl Scene {
         self.any_part(material, &by_direction)
     }
 
+    /// A sentence about a medium that cannot fill a slab.
+    pub(crate) fn check_slab(&self, medium: MediumId) -> Result<(), String> {
+        let medium = &self.media[medium];
+        if medium.grids.is_some() || !medium.emission.is_black() {
+            return Err(format!("the medium `{}` of a slab must be the same everywhere, and give off no light", medium.name));
+        }
+        Ok(())
+    }
+
     /// A sentence about an interface that cannot lie in a stack.
     pub(crate) fn check_interface(&self, material: MaterialId) -> Result<(), String> {
         let mut to_visit = vec![(material, true)];

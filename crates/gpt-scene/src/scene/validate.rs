@@ -181,10 +181,7 @@ impl Scene {
             self.color(&slab.thickness)?;
             let Some(id) = slab.medium else { continue };
             self.medium_exists(id)?;
-            let medium = &self.media[id];
-            if medium.grids.is_some() || !medium.emission.is_black() {
-                return Err(format!("the medium `{}` of a slab must be the same everywhere, and give off no light", medium.name));
-            }
+            self.check_slab(id)?;
         }
         layers.interfaces.iter().try_for_each(|&id| self.check_interface(id))?;
         let is_by_direction = |&id: &MaterialId| self.is_blended_by_direction(id);

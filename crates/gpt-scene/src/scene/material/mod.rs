@@ -89,7 +89,7 @@ impl Material {
     }
 
     /// The media in the slabs of a stack.
-    pub fn media_of_slabs(&self) -> impl Iterator<Item = crate::scene::MediumId> + '_ {
+    pub fn media_of_slabs(&self) -> impl Iterator<Item = MediumId> + '_ {
         let slabs = match &self.kind {
             MaterialKind::Layered(layers) => layers.slabs.as_slice(),
             _ => &[],

@@ -393,9 +393,9 @@ impl RenderSettings {
     /// Random numbers depend on how many samples there are in all: the first samples of many are not those of few.
     #[doc(hidden)]
     pub fn uses_strata(&self) -> bool {
-        [self.pixel_sampler, PixelSampler::Other(self.sampler)]
-            .iter()
-            .any(|sampler| matches!(sampler, PixelSampler::Other(SamplerKind::Stratified | SamplerKind::Hammersley)))
+        [self.pixel_sampler, PixelSampler::Other(self.sampler)].iter().any(|sampler| {
+            matches!(sampler, PixelSampler::Other(SamplerKind::Stratified | SamplerKind::Hammersley | SamplerKind::SharedStrata))
+        })
     }
 
     /// Every setting with the value that counts: where the pixel's sampler is the path's, it has that one's name.

@@ -108,6 +108,9 @@ impl MaterialKeys for Keys {
         let id = resolver.material_id(&self.name)?;
         let error = |message: String| resolver.error(&self.name.place, message);
         resolver.scene.flat_layers(id).map_err(error)?;
+        for name in self.slabs.iter().flat_map(|slabs| &slabs.value.0).filter_map(|slab| slab.medium.as_ref()) {
+            resolver.scene.check_slab(resolver.medium_id(name)?).map_err(|message| resolver.error(&name.place, message))?;
+        }
         let mut checked = HashSet::new();
         for name in self.interfaces.0.iter() {
             let id = resolver.material_id(name)?;
