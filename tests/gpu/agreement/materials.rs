@@ -209,7 +209,7 @@ const RELIEFS: &[(&str, &str)] = &[
 fn tables() -> String {
     let start = STAGE.find("[[material]]").expect("there are materials");
     let end = STAGE.find("[[shape]]").expect("there are shapes");
-    STAGE[start..end].to_owned() + &TEXTURES.map(|(_, text)| text).concat()
+    STAGE[start..end].to_owned() + load::file::EXAMPLE_MATERIALS + &TEXTURES.map(|(_, text)| text).concat()
 }
 
 /// A grid of materials: each on a sphere, or a rectangle where it bends normals, and on a smooth, textured tetrahedron.

@@ -49,8 +49,6 @@ const BODIES: &[&str] = &[
     "type = \"principled\", base_color = 0.9, metallic = 0, roughness = 0.6, transmission = 0.7, thin = true",
     "type = \"rough_glass\", ior = 1.3, alpha = 0.4",
     "type = \"mirror\"",
-    STACKS[0].1,
-    STACKS[1].1,
 ];
 
 /// Bodies of real layers.
