@@ -90,7 +90,8 @@ fn evaluate_layered(chosen: ChosenStack, lobes: BsdfValue, surface: Surface, wo:
     return BsdfValue(lobes.value + chosen.weight * value.value, pdf);
 }
 
-// The value towards a light, if one is sampled, and a drawn direction: `choice` chooses between the stack and the lobes.
+// The value towards a light, if one is sampled, and a drawn direction: `choice` chooses between the stack, if there is one, and the lobes. Surfaces with
+// and without a stack share the code of lobes, for drivers that copy a function to each of its calls.
 fn scatter_layered(
     chosen: ChosenStack, bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, light_key: u32, choice: f32,
     u: f32, v: f32
@@ -102,6 +103,9 @@ fn scatter_layered(
     if probability < 1.0 {
         let left = clamp((choice - probability) / (1.0 - probability), 0.0, LARGEST_NUMBER);
         lobes = scatter_lobes(bsdf, surface, wo, samples_light, light_wi, left, u, v);
+    }
+    if probability == 0.0 {
+        return shadowed(lobes, surface, light_wi);
     }
     let own = vec3<f32>(min(choice / probability, LARGEST_NUMBER), u, v);
     let by_walk = HAS_LAYERS_BY_WALK && (stack.flags & LAYERS_STRAIGHT) == 0u;

@@ -137,13 +137,17 @@ fn scatter_by(
     }
 #endif
 #if LAYERED
-    if scatterer.chosen.probability > 0.0 {
-        return scatter_layered(scatterer.chosen, scatterer.bsdf, surface, wo, samples_light, light_wi, light_key, choice, u, v);
+#if GUIDE
+    if scatterer.chosen.probability == 0.0 {
+        return scatter_guided(scatterer.guide, scatterer.bsdf, surface, wo, samples_light, light_wi, choice, u, v);
     }
 #endif
+    return scatter_layered(scatterer.chosen, scatterer.bsdf, surface, wo, samples_light, light_wi, light_key, choice, u, v);
+#else
     if HAS_GUIDE {
         return scatter_guided(scatterer.guide, scatterer.bsdf, surface, wo, samples_light, light_wi, choice, u, v);
     } else {
         return scatter(scatterer.bsdf, surface, wo, samples_light, light_wi, choice, u, v);
     }
+#endif
 }

@@ -170,7 +170,7 @@ impl<'w> Writer<'w> {
             "layered" => self.layered(material, place)?,
             other => {
                 self.drop(&format!("material of type `{other}`"), place, "a diffuse surface stands for it");
-                let key = ["diffuse", "albedo"].into_iter().find(|key| material.contains_key(*key)).unwrap_or("reflectance");
+                let key = ["diffuse", "albedo"].into_iter().find(|key| material.contains_key(key)).unwrap_or("reflectance");
                 self.with_colour(Element::new("bsdf", "diffuse"), "reflectance", material, key)?
             }
         })
