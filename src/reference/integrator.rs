@@ -5,7 +5,7 @@
 //! The integral is estimated at every such place by at most two samples: one direction towards a light (next
 //! event estimation), which finds emission only, and one direction drawn from the BSDF, along which the path
 //! goes on. The product of all weights f·|cosθ| / density so far is the path's throughput. Emission that both
-//! samples can find is shared out by multiple importance sampling, see [`super::mis`].
+//! samples can find is shared out by multiple importance sampling, see [`crate::sampling::mis`].
 
 mod setup;
 mod shadow;
