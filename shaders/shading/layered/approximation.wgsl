@@ -127,11 +127,7 @@ fn draw_straight(stack: Stack, surface: Surface, wo: vec3<f32>, choice: f32, u: 
     let seen = interface_surface(stack, surface, number, beam.direction, WHITE);
     let bsdf = load_bsdf(seen, beam.direction, MIDDLE);
 #if MORE_LOBES
-    let directed = draw_direction(bsdf, seen, beam.direction, scaled - f32(place), u, v);
-    var drawn = directed.chosen;
-    if directed.mixed {
-        drawn = mixed_sample(directed, evaluate_bsdf(bsdf, seen, beam.direction, drawn.wi));
-    }
+    var drawn = draw_direction(bsdf, seen, beam.direction, scaled - f32(place), u, v).chosen;
 #else
     var drawn = sample_bsdf(bsdf, seen, beam.direction, scaled - f32(place), u, v);
 #endif

@@ -91,52 +91,67 @@ fn evaluate_layered(chosen: ChosenStack, lobes: BsdfValue, surface: Surface, wo:
 }
 
 // The value towards a light, if one is sampled, and a drawn direction: `choice` chooses between the stack, if there is one, and the lobes. Surfaces with
-// and without a stack share the code of lobes, for drivers that copy a function to each of its calls.
+// and without a stack share this code, and both directions are evaluated by the same, for drivers that copy a function to each of its calls.
 fn scatter_layered(
     chosen: ChosenStack, bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, light_key: u32, choice: f32,
     u: f32, v: f32
 ) -> Scattering {
     let stack = chosen.stack;
     let probability = chosen.probability;
+    let has_lobes = probability < 1.0;
     let by_stack = choice < probability;
-    var lobes = Scattering(no_value(), no_sample());
-    if probability < 1.0 {
-        let left = clamp((choice - probability) / (1.0 - probability), 0.0, LARGEST_NUMBER);
-        lobes = scatter_lobes(bsdf, surface, wo, samples_light, light_wi, left, u, v);
-    }
-    if probability == 0.0 {
-        return shadowed(lobes, surface, light_wi);
-    }
-    let own = vec3<f32>(min(choice / probability, LARGEST_NUMBER), u, v);
     let by_walk = HAS_LAYERS_BY_WALK && (stack.flags & LAYERS_STRAIGHT) == 0u;
-    let estimates = samples_light && leads_out(surface, light_wi);
+    let estimates = probability > 0.0 && samples_light && leads_out(surface, light_wi);
     var light_value = BLACK;
-    var drawn = lobes.drawn;
-    if by_stack {
-        drawn = no_sample();
-    }
+    var drawn = no_sample();
+    if probability > 0.0 {
+        let own = vec3<f32>(min(choice / probability, LARGEST_NUMBER), u, v);
 #if LAYERS_BY_WALK
-    if by_walk {
-        let ways = walk_through(stack, surface, wo, estimates, light_wi, light_key, by_stack, own, mix_bits(chosen.key ^ DRAW_KEY));
-        light_value = ways.towards_light;
-        if by_stack {
+        if by_walk {
+            let ways = walk_through(stack, surface, wo, estimates, light_wi, light_key, by_stack, own, mix_bits(chosen.key ^ DRAW_KEY));
+            light_value = ways.towards_light;
             drawn = ways.drawn;
         }
-    }
 #endif
 #if LAYERS_STRAIGHT_THROUGH
-    if !by_walk && by_stack {
-        drawn = draw_straight(stack, surface, wo, own.x, u, v);
-    }
+        if !by_walk && by_stack {
+            drawn = draw_straight(stack, surface, wo, own.x, u, v);
+        }
 #endif
+    }
+    var evaluates_draw = by_stack && max_component(drawn.weight) > 0.0 && drawn.pdf_solid_angle >= 0.0;
+#if MORE_LOBES
+    var directed = Draw(no_sample(), false);
+#endif
+    if !by_stack {
+        let left = clamp((choice - probability) / (1.0 - probability), 0.0, LARGEST_NUMBER);
+#if MORE_LOBES
+        directed = draw_direction(bsdf, surface, wo, left, u, v);
+        drawn = directed.chosen;
+        evaluates_draw = directed.mixed;
+#else
+        drawn = sample_bsdf(bsdf, surface, wo, left, u, v);
+#endif
+    }
     let leads = max_component(drawn.weight) > 0.0 && leads_out(surface, drawn.wi);
-    // Both directions, one after the other, by the same code.
+    // Values of the lobes, and of the stack.
+    var light_lobes = no_value();
+    var draw_lobes = no_value();
     var light_pdf = 0.0;
     var straight = no_value();
     for (var direction = 0u; direction < 2u; direction++) {
         let towards_light = direction == 0u;
-        if select(leads && drawn.pdf_solid_angle >= 0.0, estimates, towards_light) {
-            let value = evaluate_straight(stack, surface, wo, select(drawn.wi, light_wi, towards_light), by_walk);
+        let wi = select(drawn.wi, light_wi, towards_light);
+        if has_lobes && select(evaluates_draw, samples_light, towards_light) {
+            let value = evaluate_bsdf(bsdf, surface, wo, wi);
+            if towards_light {
+                light_lobes = value;
+            } else {
+                draw_lobes = value;
+            }
+        }
+        if probability > 0.0 && select(leads && drawn.pdf_solid_angle >= 0.0, estimates, towards_light) {
+            let value = evaluate_straight(stack, surface, wo, wi, by_walk);
             if towards_light {
                 light_pdf = value.pdf_solid_angle;
                 if !by_walk {
@@ -148,31 +163,29 @@ fn scatter_layered(
         }
     }
     let light_sum = BsdfValue(
-        lobes.towards_light.value + chosen.weight * light_value,
-        (1.0 - probability) * lobes.towards_light.pdf_solid_angle + probability * light_pdf
+        light_lobes.value + chosen.weight * light_value,
+        (1.0 - probability) * light_lobes.pdf_solid_angle + probability * light_pdf
     );
     if !by_stack {
-        drawn.weight /= 1.0 - probability;
-        if drawn.pdf_solid_angle >= 0.0 {
-            drawn.pdf_solid_angle = (1.0 - probability) * drawn.pdf_solid_angle + probability * straight.pdf_solid_angle;
+#if MORE_LOBES
+        drawn = mixed_sample(directed, draw_lobes);
+#endif
+        if probability > 0.0 {
+            drawn.weight /= 1.0 - probability;
+            if drawn.pdf_solid_angle >= 0.0 {
+                drawn.pdf_solid_angle = (1.0 - probability) * drawn.pdf_solid_angle + probability * straight.pdf_solid_angle;
+            }
         }
         return shadowed(Scattering(light_sum, drawn), surface, light_wi);
     }
-    if !leads {
+    if !leads || (!by_walk && drawn.pdf_solid_angle >= 0.0 && straight.pdf_solid_angle <= 0.0) {
         return shadowed(Scattering(light_sum, no_sample()), surface, light_wi);
     }
     if drawn.pdf_solid_angle >= 0.0 {
         if !by_walk {
-            if straight.pdf_solid_angle <= 0.0 {
-                return shadowed(Scattering(light_sum, no_sample()), surface, light_wi);
-            }
             drawn.weight = straight.value / straight.pdf_solid_angle;
         }
-        var of_lobes = 0.0;
-        if probability < 1.0 {
-            of_lobes = evaluate_bsdf(bsdf, surface, wo, drawn.wi).pdf_solid_angle;
-        }
-        drawn.pdf_solid_angle = (1.0 - probability) * of_lobes + probability * straight.pdf_solid_angle;
+        drawn.pdf_solid_angle = (1.0 - probability) * draw_lobes.pdf_solid_angle + probability * straight.pdf_solid_angle;
     }
     drawn.weight *= chosen.weight / probability;
     return shadowed(Scattering(light_sum, drawn), surface, light_wi);

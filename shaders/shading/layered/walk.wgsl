@@ -134,32 +134,33 @@ fn walk_through(
                 }
                 let arrives = -walker.direction;
                 let breadth = layer_interface(stack, number).breadth;
-                let seen = interface_surface(stack, surface, number, arrives, walker.weight);
-                let bsdf = load_bsdf(seen, arrives, blend_number);
+                var drawn = no_sample();
 #if MORE_LOBES
-                let directed = draw_direction(bsdf, seen, arrives, numbers.x, numbers.y, numbers.z);
-                var drawn = directed.chosen;
-#else
-                var drawn = sample_bsdf(bsdf, seen, arrives, numbers.x, numbers.y, numbers.z);
+                var directed = Draw(no_sample(), false);
 #endif
+                var normal = stack.up;
                 var turned = BLACK;
-                // The interface towards both pieces, along the drawn direction, and as light sees it that comes from there.
-                for (var request = 0u; request < 4u; request++) {
+                // The interface draws a direction, and is evaluated towards both pieces, along the drawn direction, and as light sees it that comes
+                // from there.
+                for (var request = 0u; request < 5u; request++) {
                     var piece = outside;
-                    if request == 1u {
+                    if request == 2u {
                         piece = chosen;
                     }
                     var wanted = walk == ESTIMATE && piece.exists && piece.ahead == number && piece.walker.breadth < breadth && walker.breadth <= breadth;
                     var view_wo = arrives;
                     var wi = -piece.walker.direction;
-                    if request == 2u {
+                    if request == 0u {
+                        wanted = true;
+                    }
+                    if request == 3u {
                         wanted = false;
                         wi = drawn.wi;
 #if MORE_LOBES
                         wanted = directed.mixed;
 #endif
                     }
-                    if request == 3u {
+                    if request == 4u {
                         wanted = walk == FROM_LIGHT && drawn.pdf_solid_angle > 0.0 && max_component(drawn.weight) > 0.0;
                         view_wo = drawn.wi;
                         wi = arrives;
@@ -167,19 +168,30 @@ fn walk_through(
                     if !wanted {
                         continue;
                     }
-                    let looked_at = interface_surface(stack, surface, number, view_wo, walker.weight);
-                    let value = evaluate_bsdf(load_bsdf(looked_at, view_wo, blend_number), looked_at, view_wo, wi);
-                    if request < 2u {
+                    let seen = interface_surface(stack, surface, number, view_wo, walker.weight);
+                    let bsdf = load_bsdf(seen, view_wo, blend_number);
+                    if request == 0u {
+                        normal = seen.shading_normal;
+#if MORE_LOBES
+                        directed = draw_direction(bsdf, seen, arrives, numbers.x, numbers.y, numbers.z);
+                        drawn = directed.chosen;
+#else
+                        drawn = sample_bsdf(bsdf, seen, arrives, numbers.x, numbers.y, numbers.z);
+#endif
+                        continue;
+                    }
+                    let value = evaluate_bsdf(bsdf, seen, view_wo, wi);
+                    if request < 3u {
                         let behind = slab_in(stack, surface, piece.walker.gap);
                         let left = left_over(piece, stack, behind, height_ahead(piece.walker, stack, behind));
                         found.towards_light += walker.weight * value.value * piece.walker.weight * left;
                     }
 #if MORE_LOBES
-                    if request == 2u {
+                    if request == 3u {
                         drawn = mixed_sample(directed, value);
                     }
 #endif
-                    if request == 3u {
+                    if request == 4u {
                         turned = value.value / drawn.pdf_solid_angle;
                     }
                 }
@@ -191,7 +203,7 @@ fn walk_through(
                             turned = drawn.weight;
                         } else if drawn.pdf_solid_angle < 0.0 {
                             // Smooth surfaces are reciprocal but for the squared ratio of indices of refraction by which radiance scales.
-                            let cosines = abs(dot(arrives, seen.shading_normal)) / max(abs(dot(drawn.wi, seen.shading_normal)), SMALLEST_LAYER_COSINE);
+                            let cosines = abs(dot(arrives, normal)) / max(abs(dot(drawn.wi, normal)), SMALLEST_LAYER_COSINE);
                             turned = drawn.weight * (cosines * drawn.eta_scale);
                         }
                         walker.weight *= turned;

@@ -89,18 +89,10 @@ fn shadowed(scattering: Scattering, surface: Surface, light_wi: vec3<f32>) -> Sc
     return found;
 }
 
-// The value towards a light, if one is sampled, and a drawn direction.
-fn scatter(
-    bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
-) -> Scattering {
-    return shadowed(scatter_lobes(bsdf, surface, wo, samples_light, light_wi, choice, u, v), surface, light_wi);
-}
-
-// Both without the shadow that the surface throws on its normal.
 #if MORE_LOBES
 // The surface is evaluated towards the light and along the drawn direction by the same code, one after the
 // other: drivers that copy a function to each of its calls have half of it to compile.
-fn scatter_lobes(
+fn scatter(
     bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
     let draw = draw_direction(bsdf, surface, wo, choice, u, v);
@@ -117,16 +109,16 @@ fn scatter_lobes(
             }
         }
     }
-    return Scattering(light_value, mixed_sample(draw, draw_value));
+    return shadowed(Scattering(light_value, mixed_sample(draw, draw_value)), surface, light_wi);
 }
 #else
-fn scatter_lobes(
+fn scatter(
     bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
     var light_value = no_value();
     if samples_light {
         light_value = evaluate_bsdf(bsdf, surface, wo, light_wi);
     }
-    return Scattering(light_value, sample_bsdf(bsdf, surface, wo, choice, u, v));
+    return shadowed(Scattering(light_value, sample_bsdf(bsdf, surface, wo, choice, u, v)), surface, light_wi);
 }
 #endif

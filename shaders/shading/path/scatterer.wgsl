@@ -91,15 +91,22 @@ fn has_non_delta_scattering(scatterer: Scatterer) -> bool {
     return has_non_delta_lobe(scatterer.bsdf);
 }
 
+#if SCATTERING
+// The value of a phase function, and the density with which wi is drawn.
+fn evaluate_in_medium(scatterer: Scatterer, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
+#if GUIDE
+    return evaluate_guided_phase(scatterer.guide, scatterer.phase, wo, wi);
+#else
+    return evaluate_phase(scatterer.phase, wo, wi);
+#endif
+}
+#endif
+
 // The non-delta lobes' f |cos|, and the density with which wi is drawn. `key` is that of the numbers by which stacks estimate both.
 fn evaluate_scatterer(scatterer: Scatterer, surface: Surface, wo: vec3<f32>, wi: vec3<f32>, key: u32) -> BsdfValue {
 #if SCATTERING
     if scatterer.phase != 0u {
-#if GUIDE
-        return evaluate_guided_phase(scatterer.guide, scatterer.phase, wo, wi);
-#else
-        return evaluate_phase(scatterer.phase, wo, wi);
-#endif
+        return evaluate_in_medium(scatterer, wo, wi);
     }
 #endif
 #if GUIDE
@@ -127,7 +134,7 @@ fn scatter_by(
     if scatterer.phase != 0u {
         var light_value = no_value();
         if samples_light {
-            light_value = evaluate_scatterer(scatterer, surface, wo, light_wi, light_key);
+            light_value = evaluate_in_medium(scatterer, wo, light_wi);
         }
 #if GUIDE
         return Scattering(light_value, sample_guided_phase(scatterer.guide, scatterer.phase, wo, choice, u, v));
