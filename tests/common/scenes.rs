@@ -2,15 +2,14 @@
 
 /// The scenes of the short form of `tests/gpu/agreement`. A test holds that among them they use every switch
 /// of the shaders that any built-in scene uses on a software device, but for those below.
-pub const ENOUGH: [&str; 4] = ["examples", "terrace", "bazaar", "arbour"];
+pub const ENOUGH: [&str; 5] = ["examples", "paints", "terrace", "bazaar", "arbour"];
 
 /// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
 /// `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 38] = [
+pub const ELSEWHERE: [&str; 35] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
-    "BENT_LAYERS",
     "BUMP_MAPS",
     "COAT_NORMALS",
     "ESTIMATOR_NEE",
@@ -26,11 +25,9 @@ pub const ELSEWHERE: [&str; 38] = [
     "MEDIUM_GRIDS",
     "MEDIUM_PASSAGE",
     "NORMAL_MIRRORING",
-    "NORMAL_SCALES",
     "NORMAL_SHADOWING",
     "OPEN_BOUNDARIES",
     "ORTHOGRAPHIC",
-    "PERLIN",
     "PICK",
     "PIXEL_DIGITAL_SHIFT",
     "PIXEL_HASHED",

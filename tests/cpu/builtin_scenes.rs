@@ -10,8 +10,8 @@ use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
 use gpt::scene::{
-    DistanceSampling, Estimator, Guiding, MisHeuristic, PhongCosine, PhongHorizon, PhongSampling, PixelSampler, SamplerKind,
-    Scene,
+    DistanceSampling, Estimator, Guiding, LayerModel, MaterialKind, MisHeuristic, PhongCosine, PhongHorizon, PhongSampling,
+    PixelSampler, SamplerKind, Scene,
 };
 use gpt::shader::switches::SWITCHES;
 
@@ -45,13 +45,15 @@ const OF_DEVICES: [&str; 26] = [
     "UNIFORM_TABLES",
 ];
 
-/// Switches of settings that no built-in scene has: `tests/gpu/agreement` has scenes of them, in `media.rs` and `strategies.rs`.
-const OF_SETTINGS: [&str; 10] = [
+/// Switches of settings that no built-in scene has, and of layers by Weidlich and Wilkie's model: `tests/gpu/agreement` has scenes of them, in
+/// `media.rs`, `strategies.rs` and `layers.rs`.
+const OF_SETTINGS: [&str; 11] = [
     "BY_ANGLE",
     "BY_DISTANCE",
     "ESTIMATOR_CHOOSE",
     "HEURISTIC_CUTOFF",
     "HEURISTIC_EXPONENT",
+    "LAYERS_STRAIGHT_THROUGH",
     "LCG",
     "PHONG_BY_HEMISPHERE",
     "PHONG_FLIPPED",
@@ -135,6 +137,13 @@ fn built_in_scenes_use_every_switch() {
         mist.render.distance_sampling = distance_sampling;
         anywhere.extend(compiled_in(&[mist], &hardware, &PlanOptions::default()));
     }
+    let mut straight = load::load(Some("paints")).expect("it is built in");
+    for material in &mut straight.materials {
+        if let MaterialKind::Layered(stack) = &mut material.kind {
+            stack.model = LayerModel::Straight;
+        }
+    }
+    anywhere.extend(compiled_in(&[straight], &hardware, &PlanOptions::default()));
     anywhere.extend(compiled_in(&studied(), &hardware, &PlanOptions::default()));
     let missing: Vec<_> = every.filter(|name| !anywhere.contains(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");

@@ -227,7 +227,7 @@ fn right_files() -> Vec<Value> {
     let mut texts = vec![EVERYTHING.to_owned()];
     for (place, (_, keys)) in load::file::material_examples().enumerate() {
         let material = format!("[[material]]\nname = \"m{place}\"\n{keys}");
-        texts.push(format!("{EVERYTHING}{}{material}", load::file::EXAMPLE_MATERIALS));
+        texts.push(format!("{EVERYTHING}{}{material}", load::file::example_materials()));
     }
     texts.extend(["cornell", "veach-mis", "motion-blur"].into_iter().filter_map(load::builtin_text).map(str::to_owned));
     let right = |text: &String| load::load_toml_str(text, "right.toml", Path::new("")).is_ok();

@@ -100,7 +100,7 @@ const TEXTURES: [(&str, &str); 5] = [
 pub fn stage(material: &str) -> Scene {
     let is_used = |name: &str| material.contains(&format!("\"{name}\""));
     let textures: String = TEXTURES.into_iter().filter(|(name, _)| is_used(name)).map(|(_, text)| text).collect();
-    let text = format!("{STAGE}{}{textures}\n[[material]]\nname = \"m\"\n{material}\n", load::file::EXAMPLE_MATERIALS);
+    let text = format!("{STAGE}{}{textures}\n[[material]]\nname = \"m\"\n{material}\n", load::file::example_materials());
     load::load_toml_str(&text, "stage.toml", BUMPS.path()).unwrap_or_else(|error| panic!("{error}\n{material}"))
 }
 
@@ -159,22 +159,6 @@ const LOBES: &[(&str, &str)] = &[
         "bumpy smooth coat over bumps",
         "type = \"principled\"\nmetallic = 0\nroughness = 0.6\ntransmission = 0.5\nnormal_map = \"bumps\"\nclearcoat = 1\ncoat_normal_map = \"bumps\"\ncoat_normal_scale = -1.5\nopacity = 0.8",
     ),
-    (
-        "layers in a blend",
-        "type = \"blend\"\nmaterials = [\"stacked\", \"red\"]\nweight = { type = \"facing\", power = 1 }\n\
-         [[material]]\nname = \"stacked\"\ntype = \"layered\"\ninterfaces = [\"frost\", \"mirror\"]\nslabs = [{ thickness = 0.1, medium = \"pigment\" }]",
-    ),
-    (
-        "layers of layers",
-        "type = \"layered\"\ninterfaces = [\"varnish\", \"inner\"]\n\
-         [[material]]\nname = \"inner\"\ntype = \"layered\"\ninterfaces = [\"frost\", \"half mirror\"]\nslabs = [{ thickness = { texture = \"clouds\" }, medium = \"pigment\" }]\n\
-         [[material]]\nname = \"half mirror\"\ntype = \"blend\"\nmaterials = [\"red\", \"mirror\"]\nweight = { type = \"fresnel\", ior = 1.4 }",
-    ),
-    (
-        "a coat over glTF's material",
-        "type = \"layered\"\ninterfaces = [\"varnish\", \"worn\"]\n\
-         [[material]]\nname = \"worn\"\ntype = \"principled\"\nmetallic = 0.4\nroughness = { texture = \"clouds\" }\nclearcoat = 0.5\nnormal_map = \"bumps\"",
-    ),
     ("normal map", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\""),
     ("normal map of a mirror", "type = \"mirror\"\nnormal_map = \"bumps\""),
     ("textured exponent", "type = \"glossy\"\nreflectance = 0.8\nexponent = { texture = \"cells\" }"),
@@ -197,11 +181,6 @@ const RELIEFS: &[(&str, &str)] = &[
         "mirrored normals",
         "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
     ),
-    (
-        "layers with a map of their own",
-        "type = \"layered\"\ninterfaces = [\"bent frost\", \"red\"]\nslabs = [{ thickness = 0.2, medium = \"pigment\" }]\n\
-         [[material]]\nname = \"bent frost\"\ntype = \"rough_glass\"\nalpha = 0.2\nnormal_map = \"bumps\"",
-    ),
     ("strong normals", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 2.5"),
 ];
 
@@ -209,7 +188,7 @@ const RELIEFS: &[(&str, &str)] = &[
 fn tables() -> String {
     let start = STAGE.find("[[material]]").expect("there are materials");
     let end = STAGE.find("[[shape]]").expect("there are shapes");
-    STAGE[start..end].to_owned() + load::file::EXAMPLE_MATERIALS + &TEXTURES.map(|(_, text)| text).concat()
+    STAGE[start..end].to_owned() + &load::file::example_materials() + &TEXTURES.map(|(_, text)| text).concat()
 }
 
 /// A grid of materials: each on a sphere, or a rectangle where it bends normals, and on a smooth, textured tetrahedron.
@@ -241,7 +220,7 @@ pub fn grid(columns: usize, materials: &[(String, String)]) -> TestGrid {
     })
 }
 
-fn owned(materials: &[(&str, &str)]) -> Vec<(String, String)> {
+pub fn owned(materials: &[(&str, &str)]) -> Vec<(String, String)> {
     materials.iter().map(|(name, material)| ((*name).to_owned(), (*material).to_owned())).collect()
 }
 

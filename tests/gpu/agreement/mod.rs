@@ -4,6 +4,7 @@ mod blends;
 mod features;
 mod flat_lights;
 mod instances;
+mod layers;
 mod light_samples;
 mod lights;
 mod materials;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::file::{EXAMPLE_MATERIALS, light_examples_of, material_examples, shape_examples};
+use super::file::{EXAMPLE_PARTS, light_examples_of, material_examples, shape_examples};
 use super::scene_file::load_toml_str;
 
 /// Spheres in a row; they stand this far apart.
@@ -52,9 +52,11 @@ material = "floor"
 
 /// The scene file.
 pub fn scene() -> String {
-    let mut text = format!("{STAGE}{EXAMPLE_MATERIALS}");
-    // A string takes all that is written.
-    for (place, (_, keys)) in material_examples().enumerate() {
+    let mut text = format!("{STAGE}{EXAMPLE_PARTS}");
+    // A string takes all that is written. Stacks of layers have a scene of their own, `paints`: beside blends, drivers that copy a function to each of
+    // its calls compile their kernel for minutes.
+    let materials = material_examples().filter(|(name, _)| name.split_once(' ').map_or(*name, |(kind, _)| kind) != "layered");
+    for (place, (_, keys)) in materials.enumerate() {
         let (column, row) = ((place % ROW) as f64, (place / ROW) as f64);
         let center = [(column - 0.5 * (ROW - 1) as f64) * SPACING, 3.4 - row * SPACING];
         let _ = write!(text, "\n[[material]]\nname = \"{place}\"\n{keys}");

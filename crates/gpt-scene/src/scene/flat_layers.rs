@@ -3,7 +3,7 @@
 use super::material::{
     BlendWeight, MOST_INTERFACES, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, Slab,
 };
-use super::medium::{MediumId, PhaseKind};
+use super::medium::MediumId;
 use super::model::Scene;
 use super::texture::ColorInput;
 
@@ -52,12 +52,8 @@ impl Scene {
     fn flat_layer(&self, interface: MaterialId, slab: Slab) -> FlatLayer {
         let of_medium = |id: MediumId| {
             let medium = &self.media[id];
-            let of_kind = |kind: PhaseKind| match kind {
-                PhaseKind::HenyeyGreenstein { g } => 1.0 - g.abs(),
-                PhaseKind::Rayleigh => 1.0,
-            };
-            let widest =
-                medium.phase.0.iter().filter(|lobe| lobe.weight > 0.0).map(|lobe| of_kind(lobe.kind)).fold(0.0, f64::max);
+            let lobes = medium.phase.0.iter().filter(|lobe| lobe.weight > 0.0);
+            let widest = lobes.map(|lobe| lobe.kind.evenness()).fold(0.0, f64::max);
             if medium.scattering.is_black() { 0.0 } else { widest.max(1e-3) }
         };
         FlatLayer {

@@ -73,6 +73,16 @@ pub enum PhaseKind {
     Rayleigh,
 }
 
+impl PhaseKind {
+    /// About how evenly light is spread over directions, from 0 to 1.
+    pub fn evenness(&self) -> f64 {
+        match self {
+            Self::HenyeyGreenstein { g } => 1.0 - g.abs(),
+            Self::Rayleigh => 1.0,
+        }
+    }
+}
+
 impl Phase {
     /// All directions alike.
     pub fn isotropic() -> Self {
@@ -81,11 +91,7 @@ impl Phase {
 
     /// About how evenly light is spread over directions, from 0 to 1: a guide, which knows the light and not the lobes, draws so much more of them.
     pub fn evenness(&self) -> f64 {
-        let of_kind = |kind: PhaseKind| match kind {
-            PhaseKind::HenyeyGreenstein { g } => 1.0 - g.abs(),
-            PhaseKind::Rayleigh => 1.0,
-        };
-        self.0.iter().map(|lobe| lobe.weight * of_kind(lobe.kind)).sum()
+        self.0.iter().map(|lobe| lobe.weight * lobe.kind.evenness()).sum()
     }
 
     /// A phase function of one lobe.

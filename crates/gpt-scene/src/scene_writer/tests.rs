@@ -5,7 +5,7 @@ use std::path::Path;
 use tempfile::tempdir;
 
 use super::*;
-use crate::load::file::{EXAMPLE_MATERIALS, light_examples, material_examples, shape_examples};
+use crate::load::file::{example_materials, light_examples, material_examples, shape_examples};
 use crate::load::load_toml_str;
 use crate::load::{builtin_names, load};
 use crate::scene::{Geometry, Mesh, digest};
@@ -46,7 +46,7 @@ fn every_built_in_scene_comes_back() {
 #[test]
 fn every_material_comes_back() {
     for (name, keys) in material_examples() {
-        let text = format!("{HEAD}{EXAMPLE_MATERIALS}[[material]]\nname = \"probe\"\n{keys}{SPHERE}{POINT_LIGHT}");
+        let text = format!("{HEAD}{}[[material]]\nname = \"probe\"\n{keys}{SPHERE}{POINT_LIGHT}", example_materials());
         let read = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}\n{text}"));
         comes_back(&read, name);
     }

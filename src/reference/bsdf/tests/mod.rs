@@ -40,7 +40,7 @@ use super::rough_thin_glass::RoughThinGlass;
 use super::scatter::{Evaluation, Scatter};
 use super::thin_glass::ThinGlass;
 use super::*;
-use crate::load::file::{EXAMPLE_MATERIALS, material_examples};
+use crate::load::file::{example_materials, material_examples};
 use crate::load::load_toml_str;
 use crate::reference::intersect::Surface;
 use crate::scene::{
@@ -157,7 +157,7 @@ fn phong_glass(dielectric: Dielectric, exponent: f64) -> Lobe {
 fn examples() -> Vec<(String, Lobe, f64)> {
     let rest = "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1";
     let lobe = |(name, keys): (&str, String)| {
-        let text = format!("{rest}\n{EXAMPLE_MATERIALS}\n[[material]]\nname = \"example\"\n{keys}");
+        let text = format!("{rest}\n{}\n[[material]]\nname = \"example\"\n{keys}", example_materials());
         let scene = load_toml_str(&text, "example.toml", Path::new("")).unwrap_or_else(|error| panic!("{name}: {error}"));
         let kind = &scene.materials.last().expect("it has the example").kind;
         assert_eq!(kind.type_name(), name);

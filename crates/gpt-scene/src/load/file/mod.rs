@@ -32,7 +32,7 @@ pub(super) use document::{Document, stem};
 pub(crate) use light::write_light;
 pub use light::{examples as light_examples, examples_of as light_examples_of, strength_key};
 pub(crate) use material::write_kind;
-pub use material::{EXAMPLE_MATERIALS, examples as material_examples};
+pub use material::{EXAMPLE_PARTS, example_materials, examples as material_examples};
 pub(crate) use medium::write as write_medium;
 pub(crate) use place_file::{place_rows, write_places};
 pub(super) use resolve::{resolve, resolve_model, resolve_transform};

@@ -132,13 +132,8 @@ impl MaterialEntry {
     }
 }
 
-/// Materials and a medium that examples of other materials name, as TOML.
-pub const EXAMPLE_MATERIALS: &str = r#"
-[[medium]]
-name = "pigment"
-absorption = [0.5, 1, 2]
-scattering = [3, 2, 1]
-
+/// Materials that examples of blends name, as TOML.
+pub const EXAMPLE_PARTS: &str = r#"
 [[material]]
 name = "red"
 type = "diffuse"
@@ -147,6 +142,14 @@ reflectance = [0.7, 0.1, 0.1]
 [[material]]
 name = "mirror"
 type = "mirror"
+"#;
+
+/// Materials and a medium that examples of stacks of layers name besides.
+const EXAMPLE_LAYERS: &str = r#"
+[[medium]]
+name = "pigment"
+absorption = [0.5, 1, 2]
+scattering = [3, 2, 1]
 
 [[material]]
 name = "varnish"
@@ -160,7 +163,12 @@ ior = 1.4
 alpha = 0.3
 "#;
 
-/// `type` and keys, as TOML, of examples of every material, which go with [`EXAMPLE_MATERIALS`].
+/// Tables of all that examples of materials name, as TOML.
+pub fn example_materials() -> String {
+    [EXAMPLE_PARTS, EXAMPLE_LAYERS].concat()
+}
+
+/// `type` and keys, as TOML, of examples of every material, which go with [`example_materials`].
 pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
     let of_type = |&(name, examples): &(&'static str, &'static [&'static str])| {
         examples.iter().map(move |keys| (name, format!("type = \"{name}\"\n{keys}\n")))
