@@ -74,13 +74,14 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Something gives light: a light, or a surface whose material emits.
+    /// Something gives light: a light, a surface whose material emits, or a medium that does.
     #[doc(hidden)]
     pub fn has_light(&self) -> bool {
-        if !self.lights.is_empty() {
+        let glows = |medium: Option<MediumId>| medium.is_some_and(|id| !self.media[id].emission.is_black());
+        if !self.lights.is_empty() || glows(self.camera_medium) {
             return true;
         }
-        let emitting = self.materials_that(|part| part.emission.is_some());
+        let emitting = self.materials_that(|part| part.emission.is_some() || glows(part.interior));
         self.shapes.iter().any(|shape| shape.materials().any(|id| emitting[id]))
     }
 
