@@ -102,6 +102,8 @@ pub mod picture_test;
 #[doc(hidden)]
 pub mod plan;
 #[doc(hidden)]
+pub mod referee;
+#[doc(hidden)]
 pub mod reference;
 #[doc(hidden)]
 pub mod render;

@@ -23,6 +23,7 @@ use super::installing_arguments::{CompletionsArguments, ManArguments};
 use super::machine_progress::ProgressFormat;
 use super::model_arguments::ModelArguments;
 use super::picture_arguments::{DisplayArguments, ExrArguments};
+use super::referee::RefereeArguments;
 use super::setting_flags::SettingFlags;
 use super::settings::EstimateArguments;
 use super::test_arguments::TestArguments;
@@ -56,6 +57,8 @@ pub enum Command {
     Test(TestArguments),
     /// Render on the GPU and by the CPU reference with the same random numbers; exit code 7 if they differ
     Verify(VerifyArguments),
+    /// Let a renderer render small scenes whose pictures are known, and say what it gets wrong
+    Referee(RefereeArguments),
     /// Measure run time against error, speed, and what features cost; writes JSON, CSV and a page to look at
     Bench(Box<BenchArguments>),
     /// Say whether a scene is valid, all that is wrong with it, what is in it, and what memory and time it takes

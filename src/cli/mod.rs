@@ -29,6 +29,7 @@ mod pictures;
 mod plan;
 mod progress;
 mod reading;
+mod referee;
 #[cfg(test)]
 mod reference_pages;
 mod render;
@@ -102,6 +103,7 @@ pub fn run() -> ExitCode {
         Command::Denoise(arguments) => denoise::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Test(arguments) => test::run(&arguments, &typed),
+        Command::Referee(arguments) => referee::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments, &typed),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

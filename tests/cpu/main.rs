@@ -25,6 +25,7 @@ mod models;
 mod picture_files;
 mod picture_test;
 mod plan;
+mod referee;
 mod samplers;
 mod scene_files;
 mod schema_agreement;

@@ -59,7 +59,7 @@ fn details(report: &SceneReport) -> String {
 }
 
 /// Text that may stand anywhere in XML; what may not is a replacement character.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

@@ -1,0 +1,297 @@
+//! Judges a renderer's pictures of a scene by the true one. Two pictures, with random numbers of their own, tell their noise by how they differ; with one
+//! alone it is found from how its pixels scatter about the truth.
+
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+use super::picture::TruthPicture;
+use super::replay::PARTS;
+use crate::compare::{Finding, ImageComparison, ImageView, Moments, Region, Scatter, TileSettings, compare_measured, sidak};
+
+/// Pixels along the side of a tile.
+const TILE: u32 = 8;
+/// Share of a value that renderers may be off by rounding, in half floats for instance, and by approximations that nobody sees.
+pub const MARGIN: f64 = 1e-3;
+/// Probability with which a stated change is found.
+pub const POWER: f64 = 0.9;
+
+/// The verdict on a picture.
+#[derive(Debug, Clone)]
+pub struct Judgement {
+    pub outcome: Outcome,
+    /// The smallest share by which the whole picture's mean would have to be off to be found with probability [`POWER`]; None of a black picture.
+    pub finds: Option<f64>,
+    /// The clearest difference, where there is one.
+    pub difference: Option<Difference>,
+    /// Tile by tile; None of a picture that cannot be judged.
+    pub compared: Option<ImageComparison>,
+}
+
+/// Agreement or not.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    Agrees,
+    Differs,
+    /// The picture cannot be judged, for this reason.
+    Unusable(String),
+}
+
+/// A difference that chance does not explain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Difference {
+    pub region: Region,
+    /// 0, 1, 2: red, green, blue.
+    pub channel: usize,
+    pub truth: f64,
+    pub found: f64,
+    /// The picture is off by at least this, in radiance, with the confidence of the suite.
+    pub at_least: f64,
+    pub p_value: f64,
+}
+
+impl Difference {
+    /// The smallest difference as a share of the truth; None where that is black.
+    pub fn at_least_share(&self) -> Option<f64> {
+        (self.truth != 0.0).then(|| self.at_least / self.truth.abs())
+    }
+}
+
+/// Judges pictures, row by row from the top, of this width, which have random numbers of their own. `level`: the probability of a false alarm of this test.
+pub fn judge(truth: &TruthPicture, width: u32, pictures: &[&[[f32; 3]]], level: f64) -> Judgement {
+    let unusable =
+        |reason: String| Judgement { outcome: Outcome::Unusable(reason), finds: None, difference: None, compared: None };
+    if pictures.is_empty() {
+        return unusable("there is none".to_owned());
+    }
+    for pixels in pictures {
+        if width != truth.width || pixels.len() != truth.mean.len() {
+            let height = pixels.len() / width.max(1) as usize;
+            return unusable(format!("it has {width}×{height} pixels, not {}×{}", truth.width, truth.height));
+        }
+        let bad = pixels.iter().flatten().filter(|value| !value.is_finite()).count();
+        if bad > 0 {
+            return unusable(format!("{bad} of its numbers are not finite"));
+        }
+    }
+    let mean = mean_of(pictures);
+    let view = |pixels| ImageView { width, pixels };
+    let of_truth: Vec<[f32; 3]> = truth.standard_errors.iter().map(|errors| errors.map(|error| error * error)).collect();
+    let noises: Vec<Noise> =
+        [Some(Noise::by_deviations(truth, &mean)), Noise::by_differences(pictures)].into_iter().flatten().collect();
+    // A right picture passes each test of its own with this probability.
+    let settings = TileSettings { tile: TILE, alpha: sidak(level, noises.len()), relative_margin: MARGIN };
+    let mut judgement = Judgement { outcome: Outcome::Agrees, finds: None, difference: None, compared: None };
+    for noise in &noises {
+        let scatter = [
+            Scatter { variances: view(&noise.variances), degrees_of_freedom: noise.degrees_of_freedom },
+            Scatter { variances: view(&of_truth), degrees_of_freedom: f64::from(PARTS - 1) },
+        ];
+        let compared = match compare_measured([view(&truth.mean), view(&mean)], &scatter, &settings) {
+            Ok(compared) => compared,
+            Err(error) => return unusable(error.to_string()),
+        };
+        let finds = [judgement.finds, smallest_found(&compared)].into_iter().flatten().min_by(f64::total_cmp);
+        let difference = clearest(&compared);
+        let size = |difference: &Option<Difference>| difference.as_ref().map_or(-1.0, |difference| difference.at_least);
+        if judgement.compared.is_none() || size(&difference) > size(&judgement.difference) {
+            (judgement.difference, judgement.compared) = (difference, Some(compared));
+        }
+        judgement.finds = finds;
+    }
+    if judgement.difference.is_some() {
+        judgement.outcome = Outcome::Differs;
+    }
+    judgement
+}
+
+fn mean_of(pictures: &[&[[f32; 3]]]) -> Vec<[f32; 3]> {
+    let pixel = |index: usize| {
+        let sum = |channel: usize| pictures.iter().map(|picture| f64::from(picture[index][channel])).sum::<f64>();
+        std::array::from_fn(|channel| (sum(channel) / pictures.len() as f64) as f32)
+    };
+    (0..pictures[0].len()).map(pixel).collect()
+}
+
+/// The noise of the pictures' mean.
+struct Noise {
+    /// Variances of its pixels.
+    variances: Vec<[f32; 3]>,
+    /// Degrees of freedom of each of them.
+    degrees_of_freedom: f64,
+}
+
+impl Noise {
+    /// How the deviations from the truth scatter about their mean, tile by tile. A fault that varies within a tile counts as noise, so that the test errs
+    /// towards agreement; it needs one picture alone.
+    fn by_deviations(truth: &TruthPicture, mean: &[[f32; 3]]) -> Self {
+        let (width, height) = (truth.width as usize, truth.height as usize);
+        let tile = TILE as usize;
+        let mut variances = vec![[0.0; 3]; mean.len()];
+        for top in (0..height).step_by(tile) {
+            for left in (0..width).step_by(tile) {
+                let members = || {
+                    (top..(top + tile).min(height))
+                        .flat_map(move |y| (left..(left + tile).min(width)).map(move |x| y * width + x))
+                };
+                for channel in 0..3 {
+                    let deviation = |pixel: usize| f64::from(mean[pixel][channel]) - f64::from(truth.mean[pixel][channel]);
+                    let variance = members().map(deviation).collect::<Moments>().variance();
+                    for pixel in members() {
+                        variances[pixel][channel] = if variance.is_finite() { variance as f32 } else { 0.0 };
+                    }
+                }
+            }
+        }
+        let in_tile = f64::from(TILE * TILE);
+        Self { variances, degrees_of_freedom: (in_tile - 1.0) / in_tile }
+    }
+
+    /// How several pictures differ, pixel by pixel; None of one, and of several that are equal. A fault is no noise then.
+    fn by_differences(pictures: &[&[[f32; 3]]]) -> Option<Self> {
+        if pictures.iter().all(|picture| picture == &pictures[0]) {
+            return None;
+        }
+        let count = pictures.len() as f64;
+        let variance = |pixel: usize, channel: usize| {
+            let values: Moments = pictures.iter().map(|picture| f64::from(picture[pixel][channel])).collect();
+            (values.variance() / count) as f32
+        };
+        let variances = (0..pictures[0].len()).map(|pixel| std::array::from_fn(|channel| variance(pixel, channel))).collect();
+        // The square of a variance that is estimated with d degrees of freedom is (d + 2)/d of the square of the true one on average, by which
+        // Satterthwaite's number would be too small.
+        Some(Self { variances, degrees_of_freedom: count - 1.0 + 2.0 })
+    }
+}
+
+/// Quantile of the two-sided test at this level.
+fn critical(level: f64, degrees_of_freedom: f64) -> f64 {
+    let share = 1.0 - 0.5 * level;
+    if degrees_of_freedom.is_finite()
+        && let Ok(distribution) = StudentsT::new(0.0, 1.0, degrees_of_freedom)
+    {
+        return distribution.inverse_cdf(share);
+    }
+    Normal::standard().inverse_cdf(share)
+}
+
+/// The rejected finding whose difference is certainly largest, as a share of the truth.
+fn clearest(compared: &ImageComparison) -> Option<Difference> {
+    let of = |finding: &Finding| {
+        let is_whole = compared.whole.iter().any(|whole| whole.region == finding.region);
+        let level = if is_whole { compared.whole_level } else { compared.tile_level };
+        let noise = if finding.standard_error > 0.0 {
+            critical(level, finding.test.degrees_of_freedom) * finding.standard_error
+        } else {
+            0.0
+        };
+        Difference {
+            region: finding.region,
+            channel: finding.channel,
+            truth: finding.first,
+            found: finding.second,
+            at_least: ((finding.second - finding.first).abs() - noise).max(0.0),
+            p_value: finding.test.p_value,
+        }
+    };
+    let share = |difference: &Difference| difference.at_least_share().unwrap_or(f64::INFINITY);
+    compared.rejected().map(of).max_by(|a, b| share(a).total_cmp(&share(b)).then(a.at_least.total_cmp(&b.at_least)))
+}
+
+fn smallest_found(compared: &ImageComparison) -> Option<f64> {
+    let of = |finding: &Finding| {
+        let reach = critical(compared.whole_level, finding.test.degrees_of_freedom) + Normal::standard().inverse_cdf(POWER);
+        MARGIN + reach * finding.standard_error / finding.first.abs()
+    };
+    let known = compared.whole.iter().filter(|finding| finding.first != 0.0);
+    known.map(of).min_by(f64::total_cmp)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::random::SplitMix64;
+
+    fn truth() -> TruthPicture {
+        let mean: Vec<_> = (0..64 * 64).map(|index| [0.2 + (index % 64) as f32 / 64.0, 0.5, 1.0]).collect();
+        TruthPicture { width: 64, height: 64, standard_errors: vec![[0.0; 3]; mean.len()], mean }
+    }
+
+    fn noisy(truth: &TruthPicture, factor: f32, random: &mut SplitMix64) -> Vec<[f32; 3]> {
+        let mut noise = || (0..4).map(|_| random.uniform() as f32 - 0.5).sum::<f32>() * 0.05;
+        truth.mean.iter().map(|pixel| pixel.map(|value| factor * value + noise())).collect()
+    }
+
+    /// Two pictures with noise of their own.
+    fn two(truth: &TruthPicture, factor: f32, random: &mut SplitMix64) -> [Vec<[f32; 3]>; 2] {
+        [(); 2].map(|()| noisy(truth, factor, random))
+    }
+
+    #[test]
+    fn pictures_with_noise_alone_agree_and_one_percent_is_found() {
+        let (truth, mut random) = (truth(), SplitMix64::new(5));
+        for count in [1, 2] {
+            let right = two(&truth, 1.0, &mut random);
+            let right: Vec<&[_]> = right[..count].iter().map(Vec::as_slice).collect();
+            let judged = judge(&truth, 64, &right, 1e-3);
+            assert_eq!(judged.outcome, Outcome::Agrees, "{judged:?}");
+            let found = judged.finds.expect("it is not black");
+            assert!(found < 0.01, "{found}");
+            let bright = two(&truth, 1.01, &mut random);
+            let bright: Vec<&[_]> = bright[..count].iter().map(Vec::as_slice).collect();
+            let difference = judge(&truth, 64, &bright, 1e-3).difference.expect("one percent is found");
+            let share = difference.at_least_share().expect("it is not black");
+            assert!(share > 0.0 && share < 0.03, "{difference:?}");
+        }
+    }
+
+    #[test]
+    fn false_alarms_are_as_rare_as_stated() {
+        let (truth, mut random) = (truth(), SplitMix64::new(6));
+        for count in [1, 2] {
+            let alarms = (0..400).filter(|_| {
+                let pictures = two(&truth, 1.0, &mut random);
+                let pictures: Vec<&[_]> = pictures[..count].iter().map(Vec::as_slice).collect();
+                judge(&truth, 64, &pictures, 0.05).outcome != Outcome::Agrees
+            });
+            let alarms = alarms.count();
+            // Binomial(400, 0.05) is above 37 with probability 1e-4. The margin makes alarms rarer still.
+            assert!(alarms <= 37, "{alarms} of 400");
+        }
+    }
+
+    /// Edges that lie one pixel off within each tile: one picture takes some of that for noise, two tell it apart.
+    #[test]
+    fn two_pictures_tell_a_fault_within_tiles_from_noise() {
+        let (mut truth, mut random) = (truth(), SplitMix64::new(7));
+        let edge = |x: usize| if x % 8 < 5 { 1.0 } else { 0.0 };
+        let moved = |x: usize| if x % 8 < 4 { 1.0 } else { 0.0 };
+        let (mut wrong, shape) = (truth.clone(), |x: usize| [edge(x), moved(x)]);
+        for index in 0..64 * 64 {
+            let [right, left] = shape(index % 64);
+            (truth.mean[index], wrong.mean[index]) = ([right; 3], [left; 3]);
+        }
+        let pictures = two(&wrong, 1.0, &mut random);
+        let found = |pictures: &[&[[f32; 3]]]| judge(&truth, 64, pictures, 1e-6).difference.expect("it differs").at_least;
+        let [one, both] = [found(&[&pictures[0]]), found(&[&pictures[0], &pictures[1]])];
+        assert!(both > one && both > 0.1, "{one} {both}");
+    }
+
+    #[test]
+    fn what_cannot_be_judged_is_said() {
+        let truth = truth();
+        let mut pixels = truth.mean.clone();
+        pixels[7][1] = f32::NAN;
+        assert!(matches!(judge(&truth, 64, &[&pixels], 0.01).outcome, Outcome::Unusable(reason) if reason.contains("finite")));
+        assert!(
+            matches!(judge(&truth, 32, &[&truth.mean], 0.01).outcome, Outcome::Unusable(reason) if reason.contains("32×128"))
+        );
+        assert!(matches!(judge(&truth, 0, &[&[]], 0.01).outcome, Outcome::Unusable(_)));
+        assert!(matches!(judge(&truth, 64, &[], 0.01).outcome, Outcome::Unusable(_)));
+    }
+
+    #[test]
+    fn an_exact_picture_agrees_and_finds_the_margin() {
+        let truth = truth();
+        let judged = judge(&truth, 64, &[&truth.mean, &truth.mean], 0.01);
+        assert_eq!((judged.outcome, judged.finds), (Outcome::Agrees, Some(MARGIN)));
+    }
+}
