@@ -62,7 +62,7 @@ pub fn run(arguments: &ExportSuiteArguments) -> Result<Exit, Failure> {
     };
     write(&folder.join("suite.json"), pretty(&suite)?.as_bytes())?;
     write(&folder.join("SHA256SUMS"), checksums(folder)?.as_bytes())?;
-    terminal::answer(&format!("{} tests are in {}", tests.len(), folder.display()))?;
+    terminal::answer(&format!("{} tests are in {}\n", tests.len(), folder.display()))?;
     Ok(Exit::Done)
 }
 

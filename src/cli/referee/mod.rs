@@ -57,7 +57,7 @@ fn list(arguments: &ListArguments) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
     for test in &tests {
-        terminal::answer(&format!("{}\n    {}\n    Decides: {}", test.name, test.about, test.decides))?;
+        terminal::answer(&format!("{}\n    {}\n    Decides: {}\n", test.name, test.about, test.decides))?;
     }
     Ok(Exit::Done)
 }

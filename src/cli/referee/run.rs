@@ -73,7 +73,7 @@ pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         }
         report.seconds = start.elapsed().as_secs_f64();
         if !arguments.json {
-            terminal::answer(&report.line())?;
+            terminal::answer(&format!("{}\n", report.line()))?;
         } else if !arguments.quiet {
             terminal::note(&report.line());
         }
@@ -115,7 +115,7 @@ pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
             tests: &reports,
         })?;
     } else {
-        terminal::answer(&format!("{name}: {} ({seconds:.0} s)", counts(&reports)))?;
+        terminal::answer(&format!("{name}: {} ({seconds:.0} s)\n", counts(&reports)))?;
     }
     Ok(if right { Exit::Done } else { Exit::Difference })
 }

@@ -12,8 +12,8 @@ use crate::cli::exit::Failure;
 use crate::cli::interrupt;
 
 /// Runners of renderers that are Python packages, each one small file: `RUNNER {scene} {output} {spp} {seed} [VARIANT]`.
-const MITSUBA: &str = include_str!("runners/mitsuba.py");
-const CYCLES: &str = include_str!("runners/cycles.py");
+const MITSUBA: &str = include_str!("runners/run_mitsuba.py");
+const CYCLES: &str = include_str!("runners/run_cycles.py");
 
 /// How often a renderer is looked after.
 const POLL: Duration = Duration::from_millis(10);
@@ -60,14 +60,14 @@ impl Runner {
                 ("gpt", SceneForm::Toml, words)
             }
             (Some(KnownRenderer::Mitsuba), _) => {
-                let words = of_python("mitsuba.py", MITSUBA)?.into_iter().chain(["llvm_ad_rgb".to_owned()]).collect();
+                let words = of_python("run_mitsuba.py", MITSUBA)?.into_iter().chain(["llvm_ad_rgb".to_owned()]).collect();
                 ("Mitsuba (llvm)", SceneForm::Mitsuba, words)
             }
             (Some(KnownRenderer::MitsubaScalar), _) => {
-                let words = of_python("mitsuba.py", MITSUBA)?.into_iter().chain(["scalar_rgb".to_owned()]).collect();
+                let words = of_python("run_mitsuba.py", MITSUBA)?.into_iter().chain(["scalar_rgb".to_owned()]).collect();
                 ("Mitsuba (scalar)", SceneForm::Mitsuba, words)
             }
-            (Some(KnownRenderer::Cycles), _) => ("Cycles", SceneForm::Gltf, of_python("cycles.py", CYCLES)?),
+            (Some(KnownRenderer::Cycles), _) => ("Cycles", SceneForm::Gltf, of_python("run_cycles.py", CYCLES)?),
             (None, Some(command)) => {
                 let words = words_of(command)?;
                 let name = Path::new(&words[0]).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());

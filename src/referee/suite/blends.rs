@@ -11,20 +11,20 @@ const SKY: [f64; 3] = [1.0, 0.75, 0.5];
 const COLOR: [f64; 3] = [3.0, 2.0, 1.0];
 const DIRECTION: [f64; 3] = [-0.5, -0.3, -0.8];
 
-fn parts() -> String {
-    [
-        ("red", "type = \"diffuse\"\nreflectance = [0.8, 0.1, 0.1]"),
-        ("blue", "type = \"diffuse\"\nreflectance = [0.1, 0.2, 0.9]"),
-        ("black", "type = \"diffuse\"\nreflectance = 0"),
-        ("mirror", "type = \"mirror\""),
-        ("metal", "type = \"conductor\"\nreflectance = [0.9, 0.6, 0.3]\nalpha = 0.4"),
-    ]
-    .map(|(name, keys)| material(name, keys))
-    .concat()
-}
+const PARTS: [(&str, &str); 5] = [
+    ("red", "type = \"diffuse\"\nreflectance = [0.8, 0.1, 0.1]"),
+    ("blue", "type = \"diffuse\"\nreflectance = [0.1, 0.2, 0.9]"),
+    ("black", "type = \"diffuse\"\nreflectance = 0"),
+    ("mirror", "type = \"mirror\""),
+    ("metal", "type = \"conductor\"\nreflectance = [0.9, 0.6, 0.3]\nalpha = 0.4"),
+];
 
+/// Those of the parts that are named, and a blend of two materials as `m`.
 fn blend(first: &str, second: &str, weight: &str) -> String {
-    parts() + &material("m", &format!("type = \"blend\"\nmaterials = [\"{first}\", \"{second}\"]\nweight = {weight}"))
+    let named =
+        |name: &str| [first, second].contains(&name) || ([first, second].contains(&"inner") && ["mirror", "red"].contains(&name));
+    let parts: String = PARTS.iter().filter(|(name, _)| named(name)).map(|(name, keys)| material(name, keys)).collect();
+    parts + &material("m", &format!("type = \"blend\"\nmaterials = [\"{first}\", \"{second}\"]\nweight = {weight}"))
 }
 
 fn sky() -> String {

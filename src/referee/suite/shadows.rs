@@ -41,7 +41,7 @@ pub fn tests() -> Vec<Test> {
             "The shadow of a straight edge under a point light is sharp and where geometry puts it.",
             "Light goes straight",
         ],
-        scene("type = \"diffuse\"\nreflectance = 0.5", &point),
+        scene("type = \"diffuse\"\nreflectance = 0", &point),
         move |s, t| seen(if lit(s, t) { open(s, t) } else { 0.0 }),
     )
     .with_edges()
@@ -85,7 +85,7 @@ fn penumbra() -> Test {
             "The soft shadow of a straight edge under a rectangle.",
             "Lambert 1760, over the part of the light that is seen",
         ],
-        scene("type = \"diffuse\"\nreflectance = 0.5", &lights),
+        scene("type = \"diffuse\"\nreflectance = 0", &lights),
         move |s, t| seen(part(visible_from(s, t), s, t)),
     )
     .with_edges()

@@ -140,7 +140,7 @@ fn placed() -> Vec<Test> {
     let order = move |middle: [f64; 2], half: f64| move |s: f64, t: f64| bright_if(square(on_plane(s, t), middle, half));
     let place = |x: f64, y: f64, scale: f64| format!("[{scale}, 0, 0, {x}, 0, {scale}, 0, {y}, 0, 0, 1, 0]");
     let instances = format!(
-        "[[group]]\nname = \"square\"\n[[group.shape]]\ntype = \"mesh\"\nmaterial = \"bright\"\n\
+        "[[group]]\nname = \"square\"\n[[group.shape]]\ntype = \"mesh\"\nmaterial = \"m\"\n\
          positions = [[-0.1, -0.1, 0], [0.1, -0.1, 0], [0.1, 0.1, 0], [-0.1, 0.1, 0]]\nfaces = [[0, 1, 2], [0, 2, 3]]\n\
          [[instance]]\ngroup = \"square\"\nplaces = [{}, {}, {}]\n",
         place(-0.6, 0.5, 1.0),
@@ -151,7 +151,8 @@ fn placed() -> Vec<Test> {
         move |s: f64, t: f64| {
             let point = on_plane(s, t);
             let middles = [[-0.6, 0.5], [0.3, 0.4], [-0.2, -0.5]];
-            bright_if((0..3).any(|index| square(point, middles[index], sizes[index])))
+            let is_square = (0..3).any(|index| square(point, middles[index], sizes[index]));
+            scaled([0.2, 0.6, 1.0], if is_square { 0.5 } else { 1.0 })
         }
     };
     let mirrored = {
@@ -210,7 +211,7 @@ fn placed() -> Vec<Test> {
         .mistake("a rotation that goes clockwise", turned(30.0)),
         Test::of_formula(
             ["shapes/instances", "One square in three places, each with a size of its own.", "Instances are copies"],
-            outlines(&instances),
+            scene(PARALLEL, &format!("{}{instances}{}", diffuse(0.5), light("environment", "radiance = [0.2, 0.6, 1]"))),
             of_instances([0.1, 0.2, 0.3]),
         )
         .with_edges()

@@ -18,11 +18,23 @@ pub fn tests() -> Vec<Test> {
 
 /// A closed box whose walls glow and reflect, seen from within, and its light after so many edges of a path; 0: all.
 fn glowing_box(texts: [&'static str; 3], depth: i32) -> Test {
-    let walls = material(
-        "m",
-        &format!("type = \"diffuse\"\nreflectance = {REFLECTANCE:?}\nemission = {GLOW:?}\nemission_two_sided = true"),
-    );
-    let mut text = scene(INSIDE, &format!("{walls}{}", shape("box", "m", "min = [-1, -1, -2]\nmax = [1, 1.5, 2]")));
+    let walls = material("m", &format!("type = \"diffuse\"\nreflectance = {REFLECTANCE:?}\nemission = {GLOW:?}"));
+    // Their fronts are towards the middle.
+    let wall = |corner: [f64; 3], u: [f64; 3], v: [f64; 3]| {
+        shape("rectangle", "m", &format!("corner = {corner:?}\nedge_u = {u:?}\nedge_v = {v:?}"))
+    };
+    let (x, y, z) = ([2.0, 0.0, 0.0], [0.0, 2.5, 0.0], [0.0, 0.0, 4.0]);
+    let (low, high) = ([-1.0, -1.0, -2.0], [1.0, 1.5, 2.0]);
+    let box_of_walls = [
+        wall(low, x, y),
+        wall(low, y, z),
+        wall(low, z, x),
+        wall(high, y.map(|axis| -axis), x.map(|axis| -axis)),
+        wall(high, z.map(|axis| -axis), y.map(|axis| -axis)),
+        wall(high, x.map(|axis| -axis), z.map(|axis| -axis)),
+    ]
+    .concat();
+    let mut text = scene(INSIDE, &format!("{walls}{box_of_walls}"));
     if depth > 0 {
         text = text.replace("max_depth = 64", &format!("max_depth = {depth}"));
     } else {

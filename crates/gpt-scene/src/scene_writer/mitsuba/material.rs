@@ -318,6 +318,9 @@ impl<'w> Writer<'w> {
         if flag(&material, both) == Some(true) {
             self.drop("light from both sides", place, "it leaves the front");
         }
+        if let Some(of) = value.as_table().filter(|of| of.contains_key("texture")) {
+            self.drop_others(of, &["texture"], place);
+        }
         let emitter = Element::new("emitter", "area");
         Some(match value.as_table().and_then(|of| text(of, "texture")) {
             Some(texture) => match self.texture(texture, "radiance", false) {

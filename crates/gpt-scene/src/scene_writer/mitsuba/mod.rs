@@ -190,6 +190,11 @@ impl Writer<'_> {
                 sensor
             }
         };
+        // Planes that cut the view off lie from 0.01 to 10,000 there unless they are written: very small and very large scenes need others.
+        let distance = (look_at - position).length();
+        if !(0.1..=1e3).contains(&distance) {
+            sensor = sensor.float("near_clip", 1e-2 * distance).float("far_clip", 1e4 * distance);
+        }
         sensor = sensor.with(sampler).with(film);
         if let Some(medium) = self.medium_around_camera() {
             sensor = sensor.reference(&medium);
