@@ -4,12 +4,18 @@
 //! that renders the same picture, bit for bit.
 
 mod animation;
+mod inputs;
+mod losses;
 mod material;
 mod mitsuba;
 mod needed;
+mod pbrt;
+mod pictures;
 mod scene_file;
 mod settings;
 mod shape;
+mod surroundings;
+mod tessellation;
 mod texture;
 mod written;
 
@@ -19,6 +25,7 @@ use crate::file_log::FileLog;
 use crate::output_error::OutputError;
 use crate::scene::{Motion, Scene};
 pub use mitsuba::as_mitsuba;
+pub use pbrt::as_pbrt;
 use scene_file::scene_text;
 pub use written::WrittenScene;
 
@@ -34,7 +41,7 @@ pub fn as_scene_file(scene: &Scene, path: &Path) -> Result<WrittenScene, OutputE
         return Err(OutputError::Encode { path: path.to_owned(), what });
     }
     let (text, files) = scene_text(scene, path, true);
-    Ok(WrittenScene { text, files: files.into_files(), report: scene.import_report.clone() })
+    Ok(WrittenScene { content: text.into_bytes(), files: files.into_files(), report: scene.import_report.clone() })
 }
 
 /// Writes the scene as [`save_scene_beside`] does, whatever it was read from.
