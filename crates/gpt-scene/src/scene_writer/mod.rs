@@ -4,6 +4,8 @@
 //! that renders the same picture, bit for bit.
 
 mod animation;
+mod emission;
+mod gltf;
 mod inputs;
 mod losses;
 mod material;
@@ -17,6 +19,7 @@ mod shape;
 mod surroundings;
 mod tessellation;
 mod texture;
+mod weights;
 mod written;
 
 use std::path::{Path, PathBuf};
@@ -24,6 +27,7 @@ use std::path::{Path, PathBuf};
 use crate::file_log::FileLog;
 use crate::output_error::OutputError;
 use crate::scene::{Motion, Scene};
+pub use gltf::as_gltf;
 pub use mitsuba::as_mitsuba;
 pub use pbrt::as_pbrt;
 use scene_file::scene_text;

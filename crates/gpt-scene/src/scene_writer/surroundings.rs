@@ -93,6 +93,26 @@ impl Surroundings {
     }
 }
 
+/// The scene with the medium of each material that scatters light below its surface as the medium within its bodies, into which the surface lets
+/// light.
+pub fn with_media_below_surfaces(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    for material in &mut scene.materials {
+        if let MaterialKind::Principled(principled) = &mut material.kind
+            && let Some(subsurface) = principled.subsurface.take()
+        {
+            principled.transmission = subsurface.weight;
+            if material.interior.is_none() && principled.transmission != ColorInput::grey(0.0) {
+                let mut medium = subsurface.medium();
+                medium.name = format!("below {}", material.name);
+                material.interior = Some(scene.media.len());
+                scene.media.push(medium);
+            }
+        }
+    }
+    scene
+}
+
 /// Something is around the camera, or within bodies, that takes light or scatters it.
 pub fn has_media(scene: &Scene) -> bool {
     let is_filled = |material: &Material| material.interior.is_some() || absorbs(&material.kind).is_some();

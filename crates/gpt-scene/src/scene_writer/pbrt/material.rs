@@ -5,7 +5,7 @@ use super::directive::{Directive, Number, Tint};
 use super::glass::Glass;
 use crate::load::file::metal_symbol;
 use crate::scene::{
-    ColorInput, ConductorFresnel, Emission, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, TextureId,
+    ColorInput, ConductorFresnel, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, TextureId,
 };
 use crate::scene_writer::inputs::{Colour, Scalar};
 use crate::spectrum::Spectrum;
@@ -266,44 +266,6 @@ impl Writer<'_> {
                 self.drop(what, place, "it is white");
             }
         }
-    }
-
-    /// The light that surfaces of the material give off: its own and that of its parts, by their shares.
-    pub fn emission(&mut self, id: MaterialId, depth: usize) -> Option<Emission> {
-        let material = &self.scene.materials[id];
-        let place = self.place_of(id);
-        let mut sum = material.emission;
-        if let MaterialKind::Blend { materials: [first, second], weight } = &material.kind
-            && depth < 100
-        {
-            let mut share = self.constant_weight(weight);
-            // The share of a surface that is there by a texture is for shapes to state.
-            let is_nothing = |part: MaterialId| matches!(self.scene.materials[part].kind, MaterialKind::Pass);
-            if share.is_none() && (is_nothing(*first) || is_nothing(*second)) {
-                share = Some(if is_nothing(*second) { 1.0 } else { 0.0 });
-            }
-            for (part, share) in [(*first, share), (*second, share.map(|share| 1.0 - share))] {
-                let Some(emission) = self.emission(part, depth + 1) else { continue };
-                let share = share.unwrap_or_else(|| {
-                    self.approximate("light of a part of a blend", &place, "half of it is given off everywhere");
-                    0.5
-                });
-                let scaled = emission.radiance.scaled(Spectrum::grey(share));
-                sum = match (sum, scaled) {
-                    _ if share == 0.0 => sum,
-                    (None, radiance) => Some(Emission { radiance, ..emission }),
-                    (Some(Emission { radiance: ColorInput::Constant(before), two_sided }), ColorInput::Constant(more)) => {
-                        let radiance = ColorInput::Constant(before + more);
-                        Some(Emission { radiance, two_sided: two_sided || emission.two_sided })
-                    }
-                    (Some(before), _) => {
-                        self.drop("light of a part of a blend", &place, "that of another part alone is given off");
-                        Some(before)
-                    }
-                };
-            }
-        }
-        sum.filter(|emission| emission.radiance != ColorInput::Constant(Spectrum::BLACK))
     }
 
     /// A colour from 0 to 1 in all channels.

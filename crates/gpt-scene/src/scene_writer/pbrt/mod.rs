@@ -26,10 +26,10 @@ use std::path::Path;
 use self::directive::Directive;
 use self::material::{Made, Relief};
 use super::losses::Losses;
-use super::surroundings::Surroundings;
+use super::surroundings::{Surroundings, with_media_below_surfaces};
 use super::written::WrittenScene;
 use crate::load::file::writer::{Names, SideFiles};
-use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Scene};
+use crate::scene::{Material, MaterialId, Scene};
 
 /// A scene as one of pbrt-v4 that is to be written to `target`; meshes and pictures that it embeds lie in the folder `NAME.files` beside it. `name`
 /// is how reports call the scene.
@@ -58,26 +58,6 @@ pub fn as_pbrt(scene: &Scene, name: &str, target: &Path) -> WrittenScene {
     writer.all();
     let content = writer.out.into_bytes();
     WrittenScene { content, files: writer.files.into_files(), report: writer.losses.into_report() }
-}
-
-/// The scene with the medium of each material that scatters light below its surface as the medium within its bodies, into which the surface lets
-/// light.
-fn with_media_below_surfaces(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    for material in &mut scene.materials {
-        if let MaterialKind::Principled(principled) = &mut material.kind
-            && let Some(subsurface) = principled.subsurface.take()
-        {
-            principled.transmission = subsurface.weight;
-            if material.interior.is_none() && principled.transmission != ColorInput::grey(0.0) {
-                let mut medium = subsurface.medium();
-                medium.name = format!("below {}", material.name);
-                material.interior = Some(scene.media.len());
-                scene.media.push(medium);
-            }
-        }
-    }
-    scene
 }
 
 struct Writer<'w> {

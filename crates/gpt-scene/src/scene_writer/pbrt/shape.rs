@@ -10,6 +10,7 @@ use super::material::Made;
 use crate::load::file::writer::ply;
 use crate::scene::texture::mean_of_texture;
 use crate::scene::{Emission, Geometry, MaterialId, Mesh, Scene, Shape};
+use crate::scene_writer::emission::emission_of;
 use crate::scene_writer::inputs::{Colour, ColourMap};
 use crate::scene_writer::tessellation::{PLANE, part_of, tessellated};
 use crate::spectrum::Spectrum;
@@ -40,7 +41,7 @@ impl Writer<'_> {
             }
             let made = self.material(shown, None);
             // Groups hold no emitters.
-            let emission = if is_of_group { None } else { self.emission(shown, 0) };
+            let emission = if is_of_group { None } else { emission_of(scene, shown, &self.place_of(shown), &mut self.losses) };
             let sides = self.surroundings.sides(shown, shape.bounds().filter(|_| !is_of_group));
             let interface = sides.and_then(|sides| self.interface(sides));
             let is_part = own.len() > 1;
