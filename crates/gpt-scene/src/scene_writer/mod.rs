@@ -1,10 +1,16 @@
-//! From a scene back to a scene file: what a program made or read can be looked at, changed and rendered again.
+//! From a scene back to a scene file: what a program made or read can be looked at, changed and rendered again. And from a scene to one of another
+//! program: `mitsuba`, `pbrt`, `gltf`, of which `export_format` chooses.
 //!
 //! Meshes and pictures that came from files are named, those that did not lie in files beside the scene file. Reading it again gives a scene
 //! that renders the same picture, bit for bit.
+//!
+//! What the formats of other programs cannot say is in `losses`. What several of them need: `inputs` and `weights`, functions of texels; `pictures`,
+//! those that are made of others; `tessellation`, shapes as triangles; `surroundings`, the media on both sides of shapes; `emission`, the light of
+//! blends.
 
 mod animation;
 mod emission;
+mod export_format;
 mod gltf;
 mod inputs;
 mod losses;
@@ -27,6 +33,7 @@ use std::path::{Path, PathBuf};
 use crate::file_log::FileLog;
 use crate::output_error::OutputError;
 use crate::scene::{Motion, Scene};
+pub use export_format::ExportFormat;
 pub use gltf::as_gltf;
 pub use mitsuba::as_mitsuba;
 pub use pbrt::as_pbrt;

@@ -33,6 +33,18 @@ fn lambert_s_law_is_the_same_there() {
     assert!(!are_alike(shown(&trip.read), shown(&other)), "the control");
 }
 
+/// The material with all of the thickness of its film, if it has one, in one number.
+fn with_whole_film(material: &Material) -> Material {
+    let mut material = material.clone();
+    if let MaterialKind::Principled(principled) = &mut material.kind
+        && let Some(film) = &mut principled.thin_film
+        && let ColorInput::Constant(thickness) = film.thickness
+    {
+        film.thickness = ColorInput::grey(thickness.r() + std::mem::take(&mut film.offset));
+    }
+    material
+}
+
 /// All numbers of every example of which nothing is reported.
 #[test]
 fn principled_materials_come_back() {
@@ -47,7 +59,12 @@ fn principled_materials_come_back() {
             let MaterialKind::Principled(principled) = &shown(&written).kind else { panic!("{keys}") };
             if principled.subsurface.is_none() {
                 exact += 1;
-                assert!(are_alike(shown(&trip.read), shown(&written)), "{keys}\n{:?}\n{:?}", shown(&trip.read), shown(&written));
+                assert!(
+                    are_alike(shown(&trip.read), &with_whole_film(shown(&written))),
+                    "{keys}\n{:?}\n{:?}",
+                    shown(&trip.read),
+                    shown(&written)
+                );
             }
         }
     }

@@ -101,7 +101,7 @@ fn pictures_lie_where_they_lay() {
         texture.transform = UvTransform { rotation_degrees, offset };
         let TextureKind::Image(image) = &mut texture.kind else { panic!() };
         image.scale = scale;
-        let mut written = textured("type = \"diffuse\"", vec![texture]);
+        let mut written = textured("type = \"diffuse\"\nreflectance = 0.5", vec![texture]);
         input(&mut written);
         let Trip { read, lost, back, .. } = round_trip(&written);
         assert_eq!((lost.len(), back.len()), (0, 0), "{lost:?} {back:?}");
@@ -121,7 +121,7 @@ fn checkers_and_linear_pictures_come_back() {
         TextureKind::Checker { a: Spectrum::new(0.1, 0.5, 0.9), b: Spectrum::grey(0.8), scale: [3.0, 5.0] },
     );
     for (texture, most) in [(tiles, 3e-5), (picture(ColorSpace::Linear, 2), 3e-5)] {
-        let mut written = textured("type = \"diffuse\"", vec![texture]);
+        let mut written = textured("type = \"diffuse\"\nreflectance = 0.5", vec![texture]);
         diffuse_of(&mut written, ColorInput::Texture(0));
         let Trip { read, lost, back, .. } = round_trip(&written);
         assert_eq!((lost.len(), back.len()), (0, 0), "{lost:?} {back:?}");
@@ -165,12 +165,12 @@ fn numbers_come_back_in_their_channels() {
 fn opacity_comes_back() {
     let textures = vec![picture(ColorSpace::Srgb, 1), picture(ColorSpace::Linear, 7)];
     let tables = format!(
-        "[[material]]\nname = \"red\"\ntype = \"diffuse\"\n[[material]]\nname = \"nothing\"\ntype = \"pass\"\n[[material]]\nname = \"probe\"\n\
+        "[[material]]\nname = \"red\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[material]]\nname = \"nothing\"\ntype = \"pass\"\n[[material]]\nname = \"probe\"\n\
          type = \"blend\"\nmaterials = [\"red\", \"nothing\"]\nweight = {{ type = \"constant\", value = 1 }}\n{SQUARE}{POINT}"
     );
     let share = |texture: TextureId, channel: Channel| BlendWeight::Channel { texture, channel, factor: 0.75 };
     for (colour, opacity, channel, tau) in [(0, 0, Channel::A, None), (0, 1, Channel::G, None), (0, 1, Channel::G, Some(0.3))] {
-        let mut written = textured("type = \"diffuse\"", textures.clone());
+        let mut written = textured("type = \"diffuse\"\nreflectance = 0.5", textures.clone());
         let blend = scene(&tables);
         written.materials = blend.materials;
         written.shapes[0].material = 2;
@@ -224,7 +224,7 @@ fn colours_of_vertices_come_back() {
         filter: TextureFilter::Triangle,
         scale: [1.0; 2],
     });
-    let mut written = textured("type = \"diffuse\"", vec![Texture::new("paint", kind)]);
+    let mut written = textured("type = \"diffuse\"\nreflectance = 0.5", vec![Texture::new("paint", kind)]);
     diffuse_of(&mut written, ColorInput::Texture(0));
     let uvs = vec![Vec2::new(0.25, 0.75), Vec2::new(0.75, 0.75), Vec2::new(0.25, 0.25)];
     let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
