@@ -5,7 +5,8 @@ use serde_json::{Map, Value, json};
 use super::Writer;
 use super::draft::{Alpha, Draft, Share};
 use super::packing::Factors;
-use crate::scene::{BlendWeight, Channel, CoatNormalMap, ColorInput, MaterialId, Principled, Relief, TextureId};
+use super::volume::has_volume;
+use crate::scene::{BlendWeight, Channel, CoatNormalMap, ColorInput, Geometry, MaterialId, Principled, Relief, Shape, TextureId};
 use crate::scene_writer::emission::emission_of;
 use crate::scene_writer::inputs::{Colour, Scalar};
 use crate::scene_writer::weights;
@@ -22,6 +23,10 @@ pub struct Made {
     pub paint: Option<TextureId>,
     /// The vertices' alpha multiplies its opacity.
     pub paints_alpha: bool,
+    /// The sets of texture coordinates that it uses.
+    pub uses_sets: [bool; 2],
+    /// Its microfacets are wider in a direction, or its coat is bent along one, that no normal map says.
+    pub needs_tangents: bool,
 }
 
 impl Writer<'_> {
@@ -52,7 +57,10 @@ impl Writer<'_> {
                 }
             };
             // Light leaves both sides there, or the one that there is.
-            if !emission.two_sided && draft.double_sided {
+            if !emission.two_sided && draft.double_sided && self.encloses(id) {
+                // Nobody sees the other side.
+                draft.double_sided = false;
+            } else if !emission.two_sided && draft.double_sided {
                 self.approximate("light of one side", place, "the other side is not there");
                 draft.double_sided = false;
             } else if emission.two_sided && !draft.double_sided {
@@ -65,7 +73,10 @@ impl Writer<'_> {
         }
         let Draft { surface, alpha, emission, normal_map, double_sided, interior } = draft;
         let mut material = json!({ "name": self.materials.get(id) });
-        if double_sided {
+        self.uses_sets = [surface.anisotropy.is_some(), false];
+        // Surfaces with a volume have both sides by themselves.
+        let shines_within = emission.is_some() && double_sided;
+        if double_sided && (shines_within || !has_volume(&surface, interior)) {
             material["doubleSided"] = json!(true);
         }
         let (paint, colour) = self.without_paint(Colour::of(surface.base_color));
@@ -107,7 +118,21 @@ impl Writer<'_> {
             material["extensions"] = Value::Object(extensions);
         }
         self.lists.materials.push(material);
-        Made { index: self.lists.materials.len() - 1, paint, paints_alpha: painted.is_some() }
+        let is_directed = surface.anisotropy.is_some() || surface.is_coated() && surface.coat_normal_map.is_some();
+        let needs_tangents = is_directed && normal_map.is_none();
+        let (index, uses_sets) = (self.lists.materials.len() - 1, self.uses_sets);
+        Made { index, paint, paints_alpha: painted.is_some(), uses_sets, needs_tangents }
+    }
+
+    /// All shapes of the material are closed: nothing is seen of their backs.
+    fn encloses(&self, id: MaterialId) -> bool {
+        let is_closed = |shape: &Shape| match &shape.geometry {
+            Geometry::Sphere(_) | Geometry::Box(_) => true,
+            Geometry::Mesh(mesh) => shape.face_materials_agree() && mesh.is_closed(),
+            Geometry::Rectangle(_) | Geometry::Disk(_) | Geometry::Cylinder(_) | Geometry::Plane(_) => false,
+        };
+        let of_it = self.scene.shapes.iter().filter(|shape| shape.materials().any(|material| material == id));
+        of_it.into_iter().all(is_closed)
     }
 
     /// The light that a surface gives off: a colour from 0 to 1, and by how much it is stronger.

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::Writer;
 use super::material::Made;
 use super::paint::Painted;
+use super::tangents::with_tangents;
 use crate::scene::{Geometry, MaterialId, Mesh, Shape};
 use crate::scene_writer::tessellation::{PLANE, part_of, tessellated};
 
@@ -70,8 +71,9 @@ impl Writer<'_> {
         let kind = shape.geometry.kind_name();
         if made.deviation > 0.0 {
             let scale = shape.transform.to_affine().matrix3.x_axis.length();
-            let instead = format!("it is made of triangles, {:.1e} of the scene's units off at most", made.deviation * scale);
-            self.approximate(format!("shape `{kind}`"), place, instead);
+            let (places, most) = self.round.entry(kind).or_default();
+            places.push(place.to_owned());
+            *most = most.max(made.deviation * scale);
         } else if shape.geometry.is_infinite() {
             self.approximate(format!("shape `{kind}`"), place, format!("a square of {} units is taken", 2.0 * PLANE));
         }
@@ -92,15 +94,35 @@ impl Writer<'_> {
     }
 
     fn primitive(&mut self, mesh: Mesh, material: &Made, place: &str) -> Value {
-        let Painted { mesh, colours } = self.painted(mesh, material, place);
+        let Painted { mut mesh, colours } = self.painted(mesh, material, place);
+        // Where a mesh has one set, it serves for both. The second one needs a first.
+        if material.uses_sets[1] && mesh.second_uvs.is_empty() {
+            mesh.second_uvs.clone_from(&mesh.uvs);
+        }
+        if material.uses_sets[1] && mesh.uvs.is_empty() {
+            mesh.uvs.clone_from(&mesh.second_uvs);
+        }
+        // Vertices with colours stay as many as they are.
+        let can_be_split = mesh.smooth || colours.is_none();
+        let tangents = if material.needs_tangents && can_be_split && !mesh.uvs.is_empty() {
+            let (made, tangents) = with_tangents(mesh);
+            mesh = made;
+            Some(tangents)
+        } else {
+            None
+        };
         let mut attributes = json!({ "POSITION": self.buffer.vectors(&arrays(&mesh.positions, glam::Vec3::to_array), true) });
         if mesh.smooth && !mesh.normals.is_empty() {
             // Lengths of 1 are asked for.
             let unit = |normal: &glam::Vec3| normal.normalize_or(glam::Vec3::Y).to_array();
             attributes["NORMAL"] = json!(self.buffer.vectors(&arrays(&mesh.normals, unit), false));
         }
-        for (uvs, name) in [(&mesh.uvs, "TEXCOORD_0"), (&mesh.second_uvs, "TEXCOORD_1")] {
-            if !uvs.is_empty() {
+        if let Some(tangents) = tangents {
+            attributes["TANGENT"] = json!(self.buffer.vectors(&tangents, false));
+        }
+        let sets = [material.uses_sets[0] || material.uses_sets[1], material.uses_sets[1]];
+        for (is_used, uvs, name) in [(sets[0], &mesh.uvs, "TEXCOORD_0"), (sets[1], &mesh.second_uvs, "TEXCOORD_1")] {
+            if is_used && !uvs.is_empty() {
                 // v runs downward there.
                 attributes[name] = json!(self.buffer.vectors(&arrays(uvs, |uv| [uv.x, 1.0 - uv.y]), false));
             }

@@ -14,10 +14,11 @@ mod nearest;
 mod node;
 mod packing;
 mod paint;
+mod tangents;
 mod texture;
 mod volume;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
@@ -46,6 +47,8 @@ pub fn as_gltf(scene: &Scene, name: &str, target: &Path) -> WrittenScene {
         made_meshes: HashMap::new(),
         made_textures: HashMap::new(),
         extensions: BTreeSet::new(),
+        uses_sets: [false; 2],
+        round: BTreeMap::new(),
     };
     writer.all();
     writer.finish()
@@ -77,6 +80,10 @@ struct Writer<'w> {
     /// Indices of textures and images, by what they are made from.
     made_textures: HashMap<String, usize>,
     extensions: BTreeSet<&'static str>,
+    /// The sets of texture coordinates that the material in the making uses.
+    uses_sets: [bool; 2],
+    /// Round shapes by their kinds: the places, and the largest distance of triangles from them.
+    round: BTreeMap<&'static str, (Vec<String>, f64)>,
 }
 
 impl Writer<'_> {
@@ -86,6 +93,10 @@ impl Writer<'_> {
         self.shapes();
         self.instances();
         self.lights();
+        for (kind, (places, deviation)) in std::mem::take(&mut self.round) {
+            let instead = format!("it is made of triangles, {deviation:.1e} of the scene's units off at most");
+            places.iter().for_each(|place| self.approximate(format!("shape `{kind}`"), place, instead.clone()));
+        }
     }
 
     /// What the picture is, beside the scene that it shows.

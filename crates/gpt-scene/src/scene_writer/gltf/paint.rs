@@ -35,7 +35,7 @@ impl Writer<'_> {
         let TextureKind::Image(image) = &texture.kind else { return Painted { mesh, colours: None } };
         let by_second = texture.by_second_uvs && !mesh.second_uvs.is_empty();
         let uvs = if by_second { std::mem::take(&mut mesh.second_uvs) } else { mesh.uvs.clone() };
-        if !by_second {
+        if !by_second && !material.uses_sets[0] {
             mesh.uvs.clear();
         }
         if uvs.is_empty() {

@@ -86,6 +86,7 @@ impl Writer<'_> {
             }
         };
         let mut info = json!({ "index": index });
+        self.uses_sets[usize::from(pictured.by_second_uvs)] = true;
         if pictured.by_second_uvs {
             info["texCoord"] = json!(1);
         }

@@ -16,8 +16,7 @@ impl Writer<'_> {
     /// The extensions about what is within a surface: its volume, what that scatters, and its dispersion.
     pub fn volume(&mut self, surface: &Principled, interior: Option<MediumId>, place: &str) -> Map<String, Value> {
         let mut extensions = Map::new();
-        let lets_in = [surface.transmission, surface.diffuse_transmission].iter().any(|share| *share != ColorInput::grey(0.0));
-        if !lets_in || surface.thin {
+        if !has_volume(surface, interior) {
             if interior.is_some() {
                 self.drop("medium within a surface that lets no light in", place, "nothing is within");
             }
@@ -93,6 +92,13 @@ impl Writer<'_> {
         let of_kind = |kind: PhaseKind| if let PhaseKind::HenyeyGreenstein { g } = kind { g } else { 0.0 };
         lobes.iter().map(|lobe| lobe.weight * of_kind(lobe.kind)).sum()
     }
+}
+
+/// Something is within the bodies that the surface encloses, or light is bent as it gets into them.
+pub fn has_volume(surface: &Principled, interior: Option<MediumId>) -> bool {
+    let [passes, scatters_on] = [surface.transmission, surface.diffuse_transmission].map(|share| share != ColorInput::grey(0.0));
+    let is_filled = surface.attenuation.is_some() || interior.is_some();
+    !surface.thin && (passes || scatters_on && is_filled)
 }
 
 /// The colour after many events of which each scatters this share: the inverse of what the importer takes it for, which ascends.

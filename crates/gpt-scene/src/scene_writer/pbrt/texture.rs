@@ -123,7 +123,10 @@ impl Writer<'_> {
         match texture.relief {
             crate::scene::Relief::Heights(scale) => {
                 let heights = self.number_map(relief, &format!("heights {scale}"), place, &|texel| texel[0] * scale);
-                directive.number("displacement", &heights)
+                match heights {
+                    Number::Texture(_) => directive.number("displacement", &heights),
+                    Number::Constant(_) => directive,
+                }
             }
             crate::scene::Relief::Normals(scale) => {
                 let TextureKind::Image(image) = &texture.kind else {
