@@ -65,7 +65,7 @@ pub enum Command {
     Check(CheckArguments),
     /// Write a scene of another program as a scene file that can be edited and renders the same picture
     Import(ImportArguments),
-    /// Write a scene as one of Mitsuba 3, as far as it can be said there
+    /// Write a scene as one of Mitsuba 3, pbrt-v4 or glTF 2.0, as far as it can be said there
     Export(ExportArguments),
     /// List the built-in scenes, or print one
     Scenes(ScenesArguments),
@@ -384,8 +384,8 @@ pub struct ImportArguments {
 pub struct ExportArguments {
     /// Whatever `gpt render` takes: a scene, a model, or the name of a built-in scene
     pub scene: OsString,
-    /// Scene of Mitsuba to write; what the scene embeds goes into a folder beside it
-    #[arg(short, long, value_name = "SCENE.xml")]
+    /// Scene of Mitsuba (.xml), pbrt (.pbrt) or glTF (.glb, .gltf) to write; what the scene embeds goes into a folder beside it, or into the .glb
+    #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     #[command(flatten)]
     pub access: AccessArguments,

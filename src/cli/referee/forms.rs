@@ -49,7 +49,8 @@ impl SceneForm {
                 return Ok(WrittenForm { path, left_out: Vec::new() });
             }
             Self::Mitsuba => scene_writer::as_mitsuba(&scene, test.name, &path)?,
-            Self::Gltf | Self::Pbrt => return Ok(WrittenForm { path, left_out: vec!["later".to_owned()] }),
+            Self::Gltf => scene_writer::as_gltf(&scene, test.name, &path),
+            Self::Pbrt => scene_writer::as_pbrt(&scene, test.name, &path),
         };
         let left_out = self.sentences(&written.report);
         written.write(&path, &FileLog::default())?;

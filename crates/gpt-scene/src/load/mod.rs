@@ -57,6 +57,7 @@ pub use error::SceneError;
 pub use excerpt::Excerpt;
 pub use file::{json_schema, make_json_schema};
 pub(crate) use file::{place_rows, write_places};
+pub(crate) use gltf::single_scattering_albedo;
 pub use image_file::read_image;
 pub use presets::preset_names;
 pub use printable::printable;

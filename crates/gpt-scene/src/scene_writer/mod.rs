@@ -1,16 +1,31 @@
-//! From a scene back to a scene file: what a program made or read can be looked at, changed and rendered again.
+//! From a scene back to a scene file: what a program made or read can be looked at, changed and rendered again. And from a scene to one of another
+//! program: `mitsuba`, `pbrt`, `gltf`, of which `export_format` chooses.
 //!
 //! Meshes and pictures that came from files are named, those that did not lie in files beside the scene file. Reading it again gives a scene
 //! that renders the same picture, bit for bit.
+//!
+//! What the formats of other programs cannot say is in `losses`. What several of them need: `inputs` and `weights`, functions of texels; `pictures`,
+//! those that are made of others; `tessellation`, shapes as triangles; `surroundings`, the media on both sides of shapes; `emission`, the light of
+//! blends.
 
 mod animation;
+mod emission;
+mod export_format;
+mod gltf;
+mod inputs;
+mod losses;
 mod material;
 mod mitsuba;
 mod needed;
+mod pbrt;
+mod pictures;
 mod scene_file;
 mod settings;
 mod shape;
+mod surroundings;
+mod tessellation;
 mod texture;
+mod weights;
 mod written;
 
 use std::path::{Path, PathBuf};
@@ -18,7 +33,10 @@ use std::path::{Path, PathBuf};
 use crate::file_log::FileLog;
 use crate::output_error::OutputError;
 use crate::scene::{Motion, Scene};
+pub use export_format::ExportFormat;
+pub use gltf::as_gltf;
 pub use mitsuba::as_mitsuba;
+pub use pbrt::as_pbrt;
 use scene_file::scene_text;
 pub use written::WrittenScene;
 
@@ -34,7 +52,7 @@ pub fn as_scene_file(scene: &Scene, path: &Path) -> Result<WrittenScene, OutputE
         return Err(OutputError::Encode { path: path.to_owned(), what });
     }
     let (text, files) = scene_text(scene, path, true);
-    Ok(WrittenScene { text, files: files.into_files(), report: scene.import_report.clone() })
+    Ok(WrittenScene { content: text.into_bytes(), files: files.into_files(), report: scene.import_report.clone() })
 }
 
 /// Writes the scene as [`save_scene_beside`] does, whatever it was read from.

@@ -1,4 +1,4 @@
-//! Scenes as text with the files beside it, however the text says them.
+//! Scenes as a file with others beside it, in whatever format.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,19 +10,19 @@ use crate::file_log::FileLog;
 use crate::output_error::OutputError;
 use crate::scene::ImportReport;
 
-/// A scene as text, and the files that the text names beside those on disk.
+/// A scene as the content of a file, and the files that it names beside those on disk.
 #[derive(Debug)]
 pub struct WrittenScene {
-    /// TOML, or XML of Mitsuba.
-    pub text: String,
+    /// The file itself: text, or the bytes of binary glTF.
+    pub content: Vec<u8>,
     /// Paths of the files beside it, with their contents.
     pub files: Vec<(PathBuf, Vec<u8>)>,
-    /// Differences between the text and the scene.
+    /// Differences between what is written and the scene.
     pub report: ImportReport,
 }
 
 impl WrittenScene {
-    /// Writes the files and, last of all, the text; the paths of all that were written.
+    /// Writes the files and, last of all, the file that names them; the paths of all that were written.
     ///
     /// # Errors
     /// Files that cannot be written, and those that `read` names: an output never replaces an input.
@@ -39,7 +39,7 @@ impl WrittenScene {
         };
         // Side by side: a disk takes some time to say that a file is safe, however small it is.
         let mut written = self.files.into_par_iter().map(write).collect::<Result<Vec<_>, _>>()?;
-        AtomicFile::write(path, self.text.as_bytes())?;
+        AtomicFile::write(path, &self.content)?;
         written.push(path.to_owned());
         Ok(written)
     }

@@ -1,6 +1,6 @@
 //! Materials and their textures.
 
-mod scattering;
+pub mod scattering;
 mod see_through;
 
 use glam::DAffine2;

@@ -35,6 +35,7 @@ use self::container::{Container, UPGRADE_COMMAND, check_version};
 use self::importer::Importer;
 use self::json::{Asset, Root};
 use self::known::EXTENSIONS;
+pub use self::material::scattering::single_scattering_albedo;
 use super::error::{SceneError, show};
 use super::files::{Files, MOST_MODEL_BYTES};
 use super::import::Description;

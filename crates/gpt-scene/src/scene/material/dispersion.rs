@@ -21,7 +21,7 @@ pub enum Dispersion {
 
 impl Dispersion {
     /// The index at a wavelength in micrometres, given that at the line d. Not a number where Sellmeier's formula has none.
-    fn index(&self, central: f64, wavelength: f64) -> f64 {
+    pub fn index(&self, central: f64, wavelength: f64) -> f64 {
         let inverse_square = |wavelength: f64| wavelength.powi(-2);
         match *self {
             Self::Abbe(number) => {

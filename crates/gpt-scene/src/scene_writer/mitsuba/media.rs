@@ -8,23 +8,16 @@ use toml::Table;
 
 use super::Writer;
 use super::keys::{entries, table, text};
-use super::surroundings::{Hull, Surroundings};
 use super::xml::{Element, matrix};
 use crate::load::volume::write_mitsuba;
 use crate::math::is_upright;
 use crate::scene::{
-    ColorInput, Material, MaterialId, MaterialKind, Medium, MediumGrids, MediumId, Outside, Phase, PhaseKind, PhaseLobe, Shape,
-    Volume, VolumeFilter, VoxelGrid,
+    MaterialId, Medium, MediumGrids, MediumId, Outside, Phase, PhaseKind, PhaseLobe, Shape, Volume, VolumeFilter, VoxelGrid,
 };
+use crate::scene_writer::surroundings::{Content, Sides, absorbs};
 use crate::spectrum::Spectrum;
 
 impl Writer<'_> {
-    /// True where a path meets media.
-    pub fn has_media(&self) -> bool {
-        let is_filled = |material: &Material| material.interior.is_some() || absorbs(&material.kind).is_some();
-        self.original.camera_medium.is_some() || self.original.materials.iter().any(is_filled)
-    }
-
     /// Writes all media, those of bodies that absorb too.
     pub fn media(&mut self) {
         let tables = entries(self.scene, "medium");
@@ -114,62 +107,26 @@ impl Writer<'_> {
         medium_id(tables.get(id).and_then(|table| text(*table, "name")).unwrap_or_default())
     }
 
-    /// Finds for later what stands around what.
-    pub fn find_surroundings(&self) -> Surroundings {
-        if !self.has_media() {
-            return Surroundings::default();
+    fn id_of(&self, content: Content) -> String {
+        match content {
+            Content::Medium(id) => self.medium_named(id),
+            Content::Absorption(material) => body_id(material),
         }
-        let is_hull = self.original.materials_that(is_hull);
-        let bodies = self.original.shapes.iter().filter(|shape| is_hull[shape.material]);
-        let own = |(id, material): (MaterialId, &Material)| match material.interior {
-            Some(medium) => Some(self.medium_named(medium)),
-            None => absorbs(&material.kind).map(|_| body_id(id)),
-        };
-        let within = self.original.with_that_of_parts(self.original.materials.iter().enumerate().map(own).collect(), |_| true);
-        let hull = |shape: &Shape| Some(Hull { bounds: shape.bounds()?, holds: within[shape.material].clone() });
-        let mut hulls: Vec<Hull> = bodies.filter_map(hull).collect();
-        hulls.sort_by(|a, b| a.size().total_cmp(&b.size()));
-        // A body of that medium around the camera is left by rays that go out of it.
-        let camera = self.original.camera.position;
-        let is_left = |medium: &String| {
-            let is_around = |[low, high]: [DVec3; 2]| camera.cmpge(low).all() && camera.cmple(high).all();
-            hulls.iter().any(|hull| hull.holds.as_ref() == Some(medium) && is_around(hull.bounds))
-        };
-        let around_camera = self.medium_around_camera().filter(|medium| !is_left(medium));
-        Surroundings { hulls, around_camera, is_hull, within }
     }
 
     /// The shape with what it holds and what is around it; around shapes of groups it is the camera's medium.
     pub fn with_media(&self, element: Element, shape: Option<&Shape>, is_of_group: bool) -> Element {
-        let is_hull = |shape: &&Shape| self.surroundings.is_hull.get(shape.material) == Some(&true);
-        let Some(shape) = shape.filter(is_hull) else { return element };
-        let interior = self.surroundings.within[shape.material].as_deref();
-        let exterior = self.surroundings.around(shape.bounds().filter(|_| !is_of_group));
-        let element = match interior {
-            Some(id) => element.named_reference("interior", id),
+        let sides = shape.and_then(|shape| self.surroundings.sides(shape.material, shape.bounds().filter(|_| !is_of_group)));
+        let Some(Sides { inside, outside }) = sides else { return element };
+        let element = match inside {
+            Some(content) => element.named_reference("interior", &self.id_of(content)),
             None => element,
         };
-        match exterior {
-            Some(id) => element.named_reference("exterior", id),
+        match outside {
+            Some(content) => element.named_reference("exterior", &self.id_of(content)),
             None => element,
         }
     }
-}
-
-/// Something else is within surfaces of the material itself than around them.
-fn is_hull(material: &Material) -> bool {
-    let is_body = match &material.kind {
-        MaterialKind::Glass { thin, .. } | MaterialKind::RoughGlass { thin, .. } => !thin,
-        MaterialKind::Principled(principled) => !principled.thin && principled.transmission != ColorInput::grey(0.0),
-        _ => false,
-    };
-    material.interior.is_some() || is_body
-}
-
-/// The share of light that a body of glass absorbs per unit length, where its material says so.
-fn absorbs(kind: &MaterialKind) -> Option<Spectrum> {
-    let MaterialKind::Principled(principled) = kind else { return None };
-    principled.attenuation.map(|attenuation| attenuation.extinction())
 }
 
 /// No material and no group has this name.

@@ -7,7 +7,6 @@ mod keys;
 mod material;
 mod media;
 mod shape;
-mod surroundings;
 mod xml;
 
 use std::path::{Path, PathBuf};
@@ -16,13 +15,14 @@ use glam::DVec3;
 use toml::Table;
 
 use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
-use self::surroundings::Surroundings;
 use self::xml::{Element, Xml};
+use super::losses::Losses;
 use super::scene_file::scene_text;
+use super::surroundings::{Surroundings, has_media};
 use super::written::WrittenScene;
 use crate::load::SceneError;
 use crate::load::file::writer::SideFiles;
-use crate::scene::{ImportReport, Scene};
+use crate::scene::Scene;
 
 /// A scene as one of Mitsuba that is to be written to `target`; meshes and pictures that come from no file lie in the folder `NAME.files` beside
 /// it. `name` is how reports call the scene.
@@ -32,12 +32,12 @@ use crate::scene::{ImportReport, Scene};
 pub fn as_mitsuba(scene: &Scene, name: &str, target: &Path) -> Result<WrittenScene, SceneError> {
     let (text, files) = scene_text(scene, target, false);
     let tables: Table = text.parse().map_err(|error: toml::de::Error| SceneError::in_file(name, error.message().to_owned()))?;
-    let surroundings = Surroundings::default();
-    let (xml, report) = (Xml::default(), ImportReport::default());
-    let mut writer = Writer { name, scene: &tables, original: scene, surroundings, files, xml, report };
-    writer.surroundings = writer.find_surroundings();
+    let surroundings = Surroundings::of(scene);
+    let (xml, losses) = (Xml::default(), Losses::of(name));
+    let mut writer = Writer { name, scene: &tables, original: scene, surroundings, files, xml, losses };
     writer.all()?;
-    Ok(WrittenScene { text: writer.xml.finish(), files: writer.files.into_files(), report: writer.report })
+    let content = writer.xml.finish().into_bytes();
+    Ok(WrittenScene { content, files: writer.files.into_files(), report: writer.losses.into_report() })
 }
 
 struct Writer<'w> {
@@ -48,7 +48,7 @@ struct Writer<'w> {
     surroundings: Surroundings,
     files: SideFiles,
     xml: Xml,
-    report: ImportReport,
+    losses: Losses,
 }
 
 impl Writer<'_> {
@@ -80,7 +80,7 @@ impl Writer<'_> {
     }
 
     fn drop(&mut self, what: &str, place: &str, instead: &str) {
-        self.report.drop(what, format!("{}: {place}", self.name), instead);
+        self.losses.drop(what, place, instead);
     }
 
     /// Reports the keys that nothing said.
@@ -97,7 +97,7 @@ impl Writer<'_> {
     }
 
     fn approximate(&mut self, what: &str, place: &str, instead: &str) {
-        self.report.approximate(what, format!("{}: {place}", self.name), instead);
+        self.losses.approximate(what, place, instead);
     }
 
     fn integrator(&mut self) {
@@ -108,7 +108,7 @@ impl Writer<'_> {
         let depth = render.and_then(|render| integer(render, "max_depth")).unwrap_or(16);
         let roulette = render.and_then(|render| integer(render, "roulette_depth")).unwrap_or(5);
         // The roulette of volpathmis takes light away in version 3.9.1.
-        let kind = if self.has_media() { "volpath" } else { "path" };
+        let kind = if has_media(self.original) { "volpath" } else { "path" };
         let integrator = Element::new("integrator", kind)
             .integer("max_depth", if depth == 0 { -1 } else { depth })
             .integer("rr_depth", if roulette == 0 { 1_000_000 } else { roulette });

@@ -155,3 +155,12 @@ fn metal_fresnel(metal: MetalEntry) -> ConductorFresnel {
     };
     ConductorFresnel::Complex { eta: Spectrum::from_rgb(eta), k: Spectrum::from_rgb(k) }
 }
+
+/// The chemical symbol of the preset of a metal with this index of refraction.
+pub fn metal_symbol(eta: Spectrum, k: Spectrum) -> Option<&'static str> {
+    let presets =
+        [(MetalEntry::Gold, "Au"), (MetalEntry::Copper, "Cu"), (MetalEntry::Silver, "Ag"), (MetalEntry::Aluminium, "Al")];
+    let is_it =
+        |metal: MetalEntry| matches!(metal_fresnel(metal), ConductorFresnel::Complex { eta: e, k: i } if (e, i) == (eta, k));
+    presets.into_iter().find(|(metal, _)| is_it(*metal)).map(|(_, symbol)| symbol)
+}

@@ -27,6 +27,7 @@ pub mod thin_film;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use self::conductor::metal_symbol;
 use self::keys::{CommonKeys, CommonKeysMut, MaterialKeys};
 use super::colour::Colour;
 use super::resolver::Resolver;

@@ -9,10 +9,10 @@ mod value;
 use std::sync::Arc;
 
 pub use names::Names;
-use picture::{picture, picture_format};
+pub use picture::{picture, picture_format};
 pub use ply::ply;
 pub use side_files::SideFiles;
-use side_files::is_on_disk;
+pub use side_files::is_on_disk;
 pub use value::{colour, direction, flag, numbers, pair_f32, vector, vector_f32};
 
 pub use crate::load::toml_text::{line, list, number, table, text};

@@ -21,6 +21,11 @@ impl Names {
         Self(names.enumerate().map(&mut unique).collect())
     }
 
+    /// The name of an entry.
+    pub fn get(&self, id: usize) -> &str {
+        &self.0[id]
+    }
+
     /// A name as a scene file has it, in quotes.
     pub fn quoted(&self, id: usize) -> String {
         text(&self.0[id])

@@ -14,7 +14,7 @@ pub struct SideFiles {
     /// The folder of the files, within that.
     subfolder: String,
     files: Vec<(PathBuf, Vec<u8>)>,
-    /// How the scene file names pictures and grids, by their addresses.
+    /// The paths of pictures and grids relative to the scene file's folder, by their addresses.
     shared: HashMap<usize, String>,
 }
 
@@ -45,10 +45,15 @@ impl SideFiles {
 
     /// Adds what is at an address, once, under the name of its kind and a number; how the scene file names it, in quotes.
     pub fn add_once(&mut self, kind: &str, address: usize, ending: &str, content: impl FnOnce() -> Vec<u8>) -> String {
+        text(&self.add_file_once(kind, address, ending, content))
+    }
+
+    /// Adds what is at an address, once; its path relative to the scene file's folder.
+    pub fn add_file_once(&mut self, kind: &str, address: usize, ending: &str, content: impl FnOnce() -> Vec<u8>) -> String {
         if let Some(name) = self.shared.get(&address) {
             return name.clone();
         }
-        let name = self.add(&format!("{kind}-{}.{ending}", self.len() + 1), content());
+        let name = self.add_file(&format!("{kind}-{}.{ending}", self.len() + 1), content());
         self.shared.insert(address, name.clone());
         name
     }
@@ -65,8 +70,13 @@ impl SideFiles {
 
     /// How the scene file names a file that is there, in quotes: relative to its own folder.
     pub fn name_of(&self, path: &Path) -> String {
+        text(&self.path_to(path).to_string_lossy())
+    }
+
+    /// The way to a file that is there, from the scene file's folder.
+    pub fn path_to(&self, path: &Path) -> PathBuf {
         let absolute = fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.to_owned());
-        text(&relative(&absolute, &self.folder).to_string_lossy())
+        relative(&absolute, &self.folder)
     }
 
     /// How many there are.

@@ -50,7 +50,7 @@ impl Surface<'_, '_> {
 
 /// The share of lost light that is scattered at each event, of a medium that shows this colour after many: the fit of Kulla and Conty (2017) for
 /// isotropic scattering, as the extension has it.
-fn single_scattering_albedo(seen: f64) -> f64 {
+pub fn single_scattering_albedo(seen: f64) -> f64 {
     let root = (9.59217 + 41.6808 * seen + 17.7126 * seen * seen).sqrt();
     (1.0 - (4.09712 + 4.20863 * seen - root).powi(2)).clamp(0.0, 1.0)
 }

@@ -34,7 +34,7 @@ fn round_trip(scene: &Scene) -> (String, Scene, Vec<String>) {
         said.extend(report.dropped.iter().chain(&report.approximated).map(|item| format!("{}: {}", item.what, item.instead)));
     };
     note(&written.report);
-    let text = written.text.clone();
+    let text = String::from_utf8(written.content.clone()).unwrap();
     written.write(&path, &LoadOptions::default().log).unwrap();
     let read = load_with(Some(OsStr::new(&path)), &LoadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
     note(&read.import_report);

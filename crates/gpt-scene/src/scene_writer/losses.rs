@@ -1,0 +1,30 @@
+//! The report of an export in the making.
+
+use crate::scene::ImportReport;
+
+/// What a format cannot say of a scene, with its places.
+pub struct Losses {
+    /// The scene, as reports call it.
+    scene: String,
+    report: ImportReport,
+}
+
+impl Losses {
+    pub fn of(scene: &str) -> Self {
+        Self { scene: scene.to_owned(), report: ImportReport::default() }
+    }
+
+    /// Notes what has no effect there.
+    pub fn drop(&mut self, what: impl Into<String>, place: &str, instead: impl Into<String>) {
+        self.report.drop(what, format!("{}: {place}", self.scene), instead);
+    }
+
+    /// Notes what something similar stands for there.
+    pub fn approximate(&mut self, what: impl Into<String>, place: &str, instead: impl Into<String>) {
+        self.report.approximate(what, format!("{}: {place}", self.scene), instead);
+    }
+
+    pub fn into_report(self) -> ImportReport {
+        self.report
+    }
+}

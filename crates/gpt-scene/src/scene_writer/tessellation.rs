@@ -1,0 +1,219 @@
+//! Shapes as triangles, in their own space.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use crate::scene::{Cuboid, Cylinder, Disk, Geometry, Mesh, Plane, Rectangle, Sphere};
+
+/// Half the side of the square that stands for an infinite plane.
+pub const PLANE: f64 = 10_000.0;
+/// Segments around a round shape, and half as many from pole to pole of a sphere.
+const SEGMENTS: u32 = 128;
+
+/// Triangles in place of a shape.
+pub struct Tessellated {
+    pub mesh: Arc<Mesh>,
+    /// The largest distance between the triangles and the shape, in units of the shape's space; 0 where they are the same.
+    pub deviation: f64,
+}
+
+/// The triangles of a shape. Their fronts are the shape's fronts, and their texture coordinates the shape's, where it has some.
+pub fn tessellated(geometry: &Geometry) -> Tessellated {
+    let exact = |mesh: Mesh| Tessellated { mesh: mesh.into(), deviation: 0.0 };
+    match geometry {
+        Geometry::Mesh(mesh) => Tessellated { mesh: mesh.clone(), deviation: 0.0 },
+        Geometry::Sphere(sphere) => of_sphere(sphere),
+        Geometry::Cylinder(tube) => of_cylinder(tube),
+        Geometry::Disk(disk) => of_disk(disk),
+        Geometry::Rectangle(Rectangle { corner, edge_u, edge_v }) => exact(of_quads(&[[*corner, *edge_u, *edge_v]], true)),
+        Geometry::Box(cuboid) => exact(of_quads(&faces(cuboid), true)),
+        Geometry::Plane(Plane { point, normal }) => {
+            let (u, v) = normal.normalize_or(DVec3::Y).any_orthonormal_pair();
+            exact(of_quads(&[[*point - (u + v) * PLANE, 2.0 * PLANE * u, 2.0 * PLANE * v]], false))
+        }
+    }
+}
+
+/// The faces of the mesh with one of its materials, and only the vertices that those use.
+pub fn part_of(mesh: &Mesh, is_wanted: impl Fn(usize) -> bool) -> Mesh {
+    let mut place = vec![None; mesh.positions.len()];
+    let mut part = Mesh { smooth: mesh.smooth, ..Mesh::default() };
+    for (_, face) in mesh.faces.iter().enumerate().filter(|(index, _)| is_wanted(*index)) {
+        let corners = face.map(|vertex| {
+            let vertex = vertex as usize;
+            *place[vertex].get_or_insert_with(|| {
+                part.positions.push(mesh.positions[vertex]);
+                part.normals.extend(mesh.normals.get(vertex));
+                part.uvs.extend(mesh.uvs.get(vertex));
+                part.second_uvs.extend(mesh.second_uvs.get(vertex));
+                part.positions.len() as u32 - 1
+            })
+        });
+        part.faces.push(corners);
+    }
+    part
+}
+
+/// Corner and edges of the faces, edge_u × edge_v outward; in the order and with the texture coordinates that boxes have.
+fn faces(cuboid: &Cuboid) -> Vec<[DVec3; 3]> {
+    let extent = cuboid.max - cuboid.min;
+    let axis = |index: usize| DVec3::AXES[index % 3] * extent[index % 3];
+    let face = |index: usize| {
+        let along = index / 2;
+        match index % 2 {
+            0 => [cuboid.min, axis(along + 2), axis(along + 1)],
+            _ => [cuboid.min + axis(along), axis(along + 1), axis(along + 2)],
+        }
+    };
+    (0..6).map(face).filter(|[_, u, v]| u.cross(*v) != DVec3::ZERO).collect()
+}
+
+fn of_quads(quads: &[[DVec3; 3]], has_uvs: bool) -> Mesh {
+    let mut mesh = Mesh::default();
+    for [corner, edge_u, edge_v] in quads {
+        let first = mesh.positions.len() as u32;
+        for [u, v] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+            mesh.positions.push((*corner + u * *edge_u + v * *edge_v).as_vec3());
+            mesh.uvs.extend(has_uvs.then(|| DVec2::new(u, v).as_vec2()));
+        }
+        mesh.faces.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    mesh
+}
+
+/// A mesh of rows of vertices, which are counter-clockwise along a row and upward from row to row.
+fn of_rows(columns: u32, rows: u32, vertex: impl Fn(f64, f64) -> [DVec3; 2]) -> Mesh {
+    let mut mesh = Mesh { smooth: true, ..Mesh::default() };
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let (u, v) = (f64::from(column) / f64::from(columns), f64::from(row) / f64::from(rows));
+            let [position, normal] = vertex(u, v);
+            mesh.positions.push(position.as_vec3());
+            mesh.normals.push(normal.as_vec3());
+            mesh.uvs.push(DVec2::new(u, v).as_vec2());
+        }
+    }
+    for row in 0..rows {
+        for column in 0..columns {
+            let lower = row * (columns + 1) + column;
+            let upper = lower + columns + 1;
+            mesh.faces.extend([[lower, lower + 1, upper + 1], [lower, upper + 1, upper]]);
+        }
+    }
+    mesh.drop_degenerate_faces();
+    mesh
+}
+
+/// By the texture coordinates that spheres have: u about +Y from −Z over +X, v from the lowest to the highest point.
+fn of_sphere(sphere: &Sphere) -> Tessellated {
+    let direction = |u: f64, v: f64| {
+        let ((sine, cosine), (x, minus_z)) = ((PI * v).sin_cos(), (TAU * u).sin_cos());
+        DVec3::new(sine * x, -cosine, -sine * minus_z)
+    };
+    // Seen from outside, u runs to the left: rows are walked the other way.
+    let mesh = of_rows(SEGMENTS, SEGMENTS / 2, |u, v| {
+        let normal = direction(u, v);
+        [sphere.center + sphere.radius * normal, normal]
+    });
+    let mesh = facing_normals(mesh);
+    // The middle of a quad at the equator lies deepest, below both of its arcs.
+    let deviation = sphere.radius * (1.0 - (PI / f64::from(SEGMENTS)).cos().powi(2));
+    Tessellated { mesh: mesh.into(), deviation }
+}
+
+fn of_cylinder(tube: &Cylinder) -> Tessellated {
+    let axis = tube.to - tube.from;
+    let first = tube.first_direction();
+    let second = first.cross(axis.normalize_or(DVec3::Y));
+    let mesh = of_rows(SEGMENTS, 1, |u, v| {
+        let (sine, cosine) = (TAU * u).sin_cos();
+        let normal = first * cosine + second * sine;
+        [tube.from + axis * v + tube.radius * normal, normal]
+    });
+    let deviation = tube.radius * (1.0 - (PI / f64::from(SEGMENTS)).cos());
+    Tessellated { mesh: facing_normals(mesh).into(), deviation }
+}
+
+fn of_disk(disk: &Disk) -> Tessellated {
+    let (across, beside) = disk.normal.normalize_or(DVec3::Z).any_orthonormal_pair();
+    let rim = |index: u32| {
+        let (sine, cosine) = (TAU * f64::from(index) / f64::from(SEGMENTS)).sin_cos();
+        (disk.center + disk.radius * (across * cosine + beside * sine)).as_vec3()
+    };
+    let mut mesh =
+        Mesh { positions: std::iter::once(disk.center.as_vec3()).chain((0..SEGMENTS).map(rim)).collect(), ..Mesh::default() };
+    mesh.faces = (0..SEGMENTS).map(|index| [0, 1 + index, 1 + (index + 1) % SEGMENTS]).collect();
+    let deviation = disk.radius * (1.0 - (PI / f64::from(SEGMENTS)).cos());
+    Tessellated { mesh: mesh.into(), deviation }
+}
+
+/// The faces turned so that their fronts look along the vertices' normals.
+fn facing_normals(mut mesh: Mesh) -> Mesh {
+    for index in 0..mesh.faces.len() {
+        let face = mesh.faces[index];
+        let along: DVec3 = face.iter().map(|&vertex| mesh.normals[vertex as usize].as_dvec3()).sum();
+        if mesh.face_normal(face).is_some_and(|normal| normal.dot(along) < 0.0) {
+            mesh.faces[index] = [face[0], face[2], face[1]];
+        }
+    }
+    mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::file::shape_examples;
+    use crate::load::load_toml_str;
+
+    /// Fronts look outward, vertices lie on the shape, and no triangle is farther from it than is said.
+    #[test]
+    fn round_shapes_are_as_near_as_they_say() {
+        let sphere = Sphere { center: DVec3::new(1.0, 2.0, 3.0), radius: 2.0 };
+        let Tessellated { mesh, deviation } = tessellated(&Geometry::Sphere(sphere));
+        let mut deepest = 0.0_f64;
+        for &face in &mesh.faces {
+            let corners = face.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
+            let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let normal = mesh.face_normal(face).expect("it has an area");
+            assert!(normal.dot(middle - sphere.center) > 0.0);
+            // The plane of a triangle is nearest to the middle of the circle through its corners.
+            deepest = deepest.max(sphere.radius - (corners[0] - sphere.center).dot(normal));
+        }
+        assert!(deepest <= deviation * (1.0 + 1e-4) && deepest > 0.4 * deviation, "{deepest} {deviation}");
+        let tube = Cylinder { from: DVec3::new(0.0, 1.0, 0.0), to: DVec3::new(1.0, 3.0, 0.5), radius: 0.5 };
+        let Tessellated { mesh, deviation } = tessellated(&Geometry::Cylinder(tube));
+        let axis = (tube.to - tube.from).normalize();
+        for &face in &mesh.faces {
+            let middle: DVec3 = face.iter().map(|&vertex| mesh.positions[vertex as usize].as_dvec3()).sum::<DVec3>() / 3.0;
+            let across = (middle - tube.from).reject_from(axis);
+            let normal = mesh.face_normal(face).expect("it has an area");
+            assert!(normal.dot(across) > 0.0 && tube.radius - across.length() <= deviation * (1.0 + 1e-4));
+        }
+    }
+
+    #[test]
+    fn every_shape_has_triangles() {
+        for (name, keys) in shape_examples() {
+            let text = format!(
+                "camera = {{ position = [0, 0, 1], look_at = [0, 0, 0], vfov = 40 }}\n[[material]]\nname = \"m\"\ntype = \"emissive\"\n\
+                 radiance = 1\n{keys}material = \"m\"\n"
+            );
+            let scene = load_toml_str(&text, "example", std::path::Path::new("")).unwrap();
+            let made = tessellated(&scene.shapes[0].geometry);
+            assert!(!made.mesh.faces.is_empty() && made.deviation.is_finite(), "{name}");
+            assert_eq!(made.deviation > 0.0, scene.shapes[0].geometry.is_round(), "{name}");
+        }
+    }
+
+    #[test]
+    fn parts_have_the_vertices_that_they_use() {
+        let whole = of_quads(&faces(&Cuboid { min: DVec3::ZERO, max: DVec3::ONE }), true);
+        assert_eq!((whole.positions.len(), whole.faces.len()), (24, 12));
+        let part = part_of(&whole, |face| face >= 10);
+        assert_eq!((part.positions.len(), part.uvs.len(), part.faces.len()), (4, 4, 2));
+        assert!(part.positions.iter().all(|at| at.z == 1.0), "{part:?}");
+        assert_eq!(part_of(&whole, |_| true), whole, "the control");
+    }
+}
