@@ -1,11 +1,13 @@
-//! Judges a renderer's pictures of a scene by the true one. Two pictures, with random numbers of their own, tell their noise by how they differ; with one
-//! alone it is found from how its pixels scatter about the truth.
+//! Judges a renderer's pictures of a scene by the true one. Means of tiles are judged by how pixels scatter about the truth; two pictures, with random
+//! numbers of their own, tell faults of single pixels from noise.
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::picture::TruthPicture;
 use super::replay::PARTS;
-use crate::compare::{Finding, ImageComparison, ImageView, Moments, Region, Scatter, TileSettings, compare_measured, sidak};
+use crate::compare::{
+    Finding, ImageComparison, ImageView, Moments, Region, Scatter, TestResult, TileSettings, compare_measured, sidak,
+};
 
 /// Pixels along the side of a tile.
 const TILE: u32 = 8;
@@ -41,11 +43,22 @@ pub struct Difference {
     pub region: Region,
     /// 0, 1, 2: red, green, blue.
     pub channel: usize,
+    pub of: DifferenceOf,
+    /// Means over the region.
     pub truth: f64,
     pub found: f64,
-    /// The picture is off by at least this, in radiance, with the confidence of the suite.
+    /// The mean, or the root mean square over the pixels, is off by at least this, in radiance, with the confidence of the suite.
     pub at_least: f64,
     pub p_value: f64,
+}
+
+/// The thing that differs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DifferenceOf {
+    /// The mean of a region.
+    Means,
+    /// Single pixels, whose deviations cancel each other in means.
+    Pixels,
 }
 
 impl Difference {
@@ -74,33 +87,23 @@ pub fn judge(truth: &TruthPicture, width: u32, pictures: &[&[[f32; 3]]], level: 
     }
     let mean = mean_of(pictures);
     let view = |pixels| ImageView { width, pixels };
+    let noise = noise_of_tiles(truth, &mean);
     let of_truth: Vec<[f32; 3]> = truth.standard_errors.iter().map(|errors| errors.map(|error| error * error)).collect();
-    let noises: Vec<Noise> =
-        [Some(Noise::by_deviations(truth, &mean)), Noise::by_differences(pictures)].into_iter().flatten().collect();
-    // A right picture passes each test of its own with this probability.
-    let settings = TileSettings { tile: TILE, alpha: sidak(level, noises.len()), relative_margin: MARGIN };
-    let mut judgement = Judgement { outcome: Outcome::Agrees, finds: None, difference: None, compared: None };
-    for noise in &noises {
-        let scatter = [
-            Scatter { variances: view(&noise.variances), degrees_of_freedom: noise.degrees_of_freedom },
-            Scatter { variances: view(&of_truth), degrees_of_freedom: f64::from(PARTS - 1) },
-        ];
-        let compared = match compare_measured([view(&truth.mean), view(&mean)], &scatter, &settings) {
-            Ok(compared) => compared,
-            Err(error) => return unusable(error.to_string()),
-        };
-        let finds = [judgement.finds, smallest_found(&compared)].into_iter().flatten().min_by(f64::total_cmp);
-        let difference = clearest(&compared);
-        let size = |difference: &Option<Difference>| difference.as_ref().map_or(-1.0, |difference| difference.at_least);
-        if judgement.compared.is_none() || size(&difference) > size(&judgement.difference) {
-            (judgement.difference, judgement.compared) = (difference, Some(compared));
-        }
-        judgement.finds = finds;
-    }
-    if judgement.difference.is_some() {
-        judgement.outcome = Outcome::Differs;
-    }
-    judgement
+    let in_tile = f64::from(TILE * TILE);
+    let scatter = [
+        Scatter { variances: view(&noise), degrees_of_freedom: (in_tile - 1.0) / in_tile },
+        Scatter { variances: view(&of_truth), degrees_of_freedom: f64::from(PARTS - 1) },
+    ];
+    // Means are one family of tests, single pixels the other.
+    let family_level = sidak(level, 2);
+    let settings = TileSettings { tile: TILE, alpha: family_level, relative_margin: MARGIN };
+    let compared = match compare_measured([view(&truth.mean), view(&mean)], &scatter, &settings) {
+        Ok(compared) => compared,
+        Err(error) => return unusable(error.to_string()),
+    };
+    let difference = clearest(&compared).or_else(|| of_single_pixels(truth, pictures, &compared, family_level));
+    let outcome = if difference.is_some() { Outcome::Differs } else { Outcome::Agrees };
+    Judgement { outcome, finds: smallest_found(&compared), difference, compared: Some(compared) }
 }
 
 fn mean_of(pictures: &[&[[f32; 3]]]) -> Vec<[f32; 3]> {
@@ -111,54 +114,72 @@ fn mean_of(pictures: &[&[[f32; 3]]]) -> Vec<[f32; 3]> {
     (0..pictures[0].len()).map(pixel).collect()
 }
 
-/// The noise of the pictures' mean.
-struct Noise {
-    /// Variances of its pixels.
-    variances: Vec<[f32; 3]>,
-    /// Degrees of freedom of each of them.
-    degrees_of_freedom: f64,
-}
-
-impl Noise {
-    /// How the deviations from the truth scatter about their mean, tile by tile. A fault that varies within a tile counts as noise, so that the test errs
-    /// towards agreement; it needs one picture alone.
-    fn by_deviations(truth: &TruthPicture, mean: &[[f32; 3]]) -> Self {
-        let (width, height) = (truth.width as usize, truth.height as usize);
-        let tile = TILE as usize;
-        let mut variances = vec![[0.0; 3]; mean.len()];
-        for top in (0..height).step_by(tile) {
-            for left in (0..width).step_by(tile) {
-                let members = || {
-                    (top..(top + tile).min(height))
-                        .flat_map(move |y| (left..(left + tile).min(width)).map(move |x| y * width + x))
-                };
-                for channel in 0..3 {
-                    let deviation = |pixel: usize| f64::from(mean[pixel][channel]) - f64::from(truth.mean[pixel][channel]);
-                    let variance = members().map(deviation).collect::<Moments>().variance();
-                    for pixel in members() {
-                        variances[pixel][channel] = if variance.is_finite() { variance as f32 } else { 0.0 };
-                    }
+/// Variances of the mean's pixels: how the deviations from the truth scatter about their mean, tile by tile. A fault that varies within a tile counts as
+/// noise, so that the tests of means err towards agreement.
+fn noise_of_tiles(truth: &TruthPicture, mean: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let (width, height) = (truth.width as usize, truth.height as usize);
+    let tile = TILE as usize;
+    let mut variances = vec![[0.0; 3]; mean.len()];
+    for top in (0..height).step_by(tile) {
+        for left in (0..width).step_by(tile) {
+            let members = || {
+                (top..(top + tile).min(height)).flat_map(move |y| (left..(left + tile).min(width)).map(move |x| y * width + x))
+            };
+            for channel in 0..3 {
+                let deviation = |pixel: usize| f64::from(mean[pixel][channel]) - f64::from(truth.mean[pixel][channel]);
+                let variance = members().map(deviation).collect::<Moments>().variance();
+                for pixel in members() {
+                    variances[pixel][channel] = if variance.is_finite() { variance as f32 } else { 0.0 };
                 }
             }
         }
-        let in_tile = f64::from(TILE * TILE);
-        Self { variances, degrees_of_freedom: (in_tile - 1.0) / in_tile }
     }
+    variances
+}
 
-    /// How several pictures differ, pixel by pixel; None of one, and of several that are equal. A fault is no noise then.
-    fn by_differences(pictures: &[&[[f32; 3]]]) -> Option<Self> {
-        if pictures.iter().all(|picture| picture == &pictures[0]) {
+/// Faults that change from pixel to pixel and leave means alone: the deviations of two pictures with random numbers of their own have products whose mean
+/// is 0 if there is noise alone, and the mean square of the fault otherwise. The products over all pixels are the sample of a one-sided t-test; a few bright
+/// samples are in one picture only and do no harm. None of one picture, and of pictures that are equal.
+fn of_single_pixels(
+    truth: &TruthPicture,
+    pictures: &[&[[f32; 3]]],
+    compared: &ImageComparison,
+    level: f64,
+) -> Option<Difference> {
+    let (first, second) = pictures.split_at(pictures.len() / 2);
+    if first.is_empty() || pictures.iter().all(|picture| picture == &pictures[0]) {
+        return None;
+    }
+    let [first, second] = [first, second].map(mean_of);
+    let level = sidak(level, 3);
+    let of_channel = |channel: usize| {
+        let product = |pixel: usize| {
+            let truly = f64::from(truth.mean[pixel][channel]);
+            let [a, b] = [&first, &second].map(|picture| f64::from(picture[pixel][channel]) - truly);
+            // Both share the error of the truth, and may be off by the margin.
+            a * b - f64::from(truth.standard_errors[pixel][channel]).powi(2) - (MARGIN * truly).powi(2)
+        };
+        let products: Moments = (0..truth.mean.len()).map(product).collect();
+        let (mean, error, degrees) = (products.mean(), products.standard_error(), products.count() as f64 - 1.0);
+        // One side of a two-sided test at twice the level.
+        let test = TestResult::from_deviation(mean.max(0.0), error, degrees);
+        if mean <= 0.0 || test.p_value >= 2.0 * level {
             return None;
         }
-        let count = pictures.len() as f64;
-        let variance = |pixel: usize, channel: usize| {
-            let values: Moments = pictures.iter().map(|picture| f64::from(picture[pixel][channel])).collect();
-            (values.variance() / count) as f32
-        };
-        let variances = (0..pictures[0].len()).map(|pixel| std::array::from_fn(|channel| variance(pixel, channel))).collect();
-        // Satterthwaite's number is too small of variances that are themselves estimated, by up to a factor of three, which errs towards agreement.
-        Some(Self { variances, degrees_of_freedom: count - 1.0 })
-    }
+        let whole = &compared.whole[channel];
+        let at_least = (mean - critical(2.0 * level, degrees) * error).max(0.0).sqrt();
+        let (truth, found) = (whole.first, whole.second);
+        Some(Difference {
+            region: whole.region,
+            channel,
+            of: DifferenceOf::Pixels,
+            truth,
+            found,
+            at_least,
+            p_value: 0.5 * test.p_value,
+        })
+    };
+    (0..3).filter_map(of_channel).max_by(|a, b| a.at_least.total_cmp(&b.at_least))
 }
 
 /// Quantile of the two-sided test at this level.
@@ -185,6 +206,7 @@ fn clearest(compared: &ImageComparison) -> Option<Difference> {
         Difference {
             region: finding.region,
             channel: finding.channel,
+            of: DifferenceOf::Means,
             truth: finding.first,
             found: finding.second,
             at_least: ((finding.second - finding.first).abs() - noise).max(0.0),
@@ -257,21 +279,26 @@ mod tests {
         }
     }
 
-    /// Edges that lie one pixel off within each tile: one picture takes some of that for noise, two tell it apart.
+    /// Edges that lie one pixel off and leave the means of tiles alone: one picture takes that for noise, two tell it apart.
     #[test]
-    fn two_pictures_tell_a_fault_within_tiles_from_noise() {
+    fn two_pictures_tell_a_fault_of_pixels_from_noise() {
         let (mut truth, mut random) = (truth(), SplitMix64::new(7));
-        let edge = |x: usize| if x % 8 < 5 { 1.0 } else { 0.0 };
-        let moved = |x: usize| if x % 8 < 4 { 1.0 } else { 0.0 };
-        let (mut wrong, shape) = (truth.clone(), |x: usize| [edge(x), moved(x)]);
+        let mut wrong = truth.clone();
         for index in 0..64 * 64 {
-            let [right, left] = shape(index % 64);
-            (truth.mean[index], wrong.mean[index]) = ([right; 3], [left; 3]);
+            let bright = |x: usize| if x % 8 < 4 { 1.0 } else { 0.0 };
+            (truth.mean[index], wrong.mean[index]) = ([bright(index); 3], [bright(index + 1); 3]);
         }
         let pictures = two(&wrong, 1.0, &mut random);
-        let found = |pictures: &[&[[f32; 3]]]| judge(&truth, 64, pictures, 1e-6).difference.expect("it differs").at_least;
-        let [one, both] = [found(&[&pictures[0]]), found(&[&pictures[0], &pictures[1]])];
-        assert!(both > one && both > 0.1, "{one} {both}");
+        assert_eq!(judge(&truth, 64, &[&pictures[0]], 1e-6).outcome, Outcome::Agrees);
+        let difference = judge(&truth, 64, &[&pictures[0], &pictures[1]], 1e-6).difference.expect("it differs");
+        // A quarter of the pixels is off by 1.
+        assert!(
+            difference.of == DifferenceOf::Pixels && difference.at_least > 0.4 && difference.at_least < 0.5,
+            "{difference:?}"
+        );
+        // The control: the right picture.
+        let pictures = two(&truth, 1.0, &mut random);
+        assert_eq!(judge(&truth, 64, &[&pictures[0], &pictures[1]], 1e-3).outcome, Outcome::Agrees);
     }
 
     #[test]

@@ -2,8 +2,30 @@
 
 use super::picture::TruthPicture;
 
-/// Means and standard errors of tests that no formula tells, by `GPT_BLESS=1 cargo test --release --test referee truths`.
-const PICTURES: &[(&str, &[u8])] = &[];
+/// A test's name for files, and its truth.
+macro_rules! shipped {
+    ($($name:literal),* $(,)?) => {
+        [$(($name, include_bytes!(concat!("../../scenes/referee/", $name, ".truth")).as_slice())),*]
+    };
+}
+
+/// Means and standard errors of tests that no formula tells, made by `GPT_BLESS=1 cargo test --release --test cpu shipped_truths`.
+const PICTURES: [(&str, &[u8]); 14] = shipped![
+    "extensions-anisotropy",
+    "extensions-clearcoat",
+    "extensions-diffuse-transmission",
+    "extensions-dispersion",
+    "extensions-emissive-strength",
+    "extensions-ior",
+    "extensions-iridescence",
+    "extensions-sheen",
+    "extensions-specular",
+    "extensions-transmission",
+    "extensions-volume",
+    "media-milk",
+    "transport-glossy-plates",
+    "transport-room",
+];
 
 /// Every test's truth lies in one file of this many numbers of 32 bits for each pixel, little-endian: mean and standard error of red, green and blue.
 const NUMBERS: usize = 6;

@@ -30,6 +30,8 @@ mod part_layers;
 mod parts;
 mod picture_files;
 mod picture_tests;
+#[cfg(unix)]
+mod referee;
 mod tight_limits;
 mod traversal;
 mod verify;

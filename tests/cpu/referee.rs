@@ -40,7 +40,7 @@ fn rendered_once(test: &Test, spp: u32, seed: u32) -> Vec<[f32; 3]> {
 
 /// Samples per pixel of the short and the long form.
 fn samples() -> u32 {
-    if in_full("pictures of the referee's suite with 256 samples instead of 32") { 256 } else { 32 }
+    if in_full("pictures of the referee's suite with 256 samples instead of 16") { 256 } else { 16 }
 }
 
 fn truth(test: &Test) -> TruthPicture {

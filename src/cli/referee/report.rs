@@ -2,7 +2,7 @@
 
 use gpt::compare::ImageComparison;
 use gpt::output::Image;
-use gpt::referee::{Difference, Judgement, Outcome, Test};
+use gpt::referee::{Difference, DifferenceOf, Judgement, Outcome, Test};
 use serde::Serialize;
 
 /// The verdict on one test.
@@ -64,6 +64,8 @@ pub struct TestReport {
 pub struct DifferenceReport {
     pub region: gpt::compare::Region,
     pub channel: &'static str,
+    /// `means` of the region, or single `pixels`.
+    pub of: &'static str,
     pub truth: f64,
     pub found: f64,
     /// In radiance.
@@ -110,6 +112,10 @@ impl TestReport {
         self.difference = judgement.difference.as_ref().map(|difference| DifferenceReport {
             region: difference.region,
             channel: ["red", "green", "blue"][difference.channel],
+            of: match difference.of {
+                DifferenceOf::Means => "means",
+                DifferenceOf::Pixels => "pixels",
+            },
             truth: difference.truth,
             found: difference.found,
             at_least: difference.at_least,
@@ -151,6 +157,9 @@ impl DifferenceReport {
     pub fn sentence(&self, share: Option<f64>) -> String {
         let gpt::compare::Region { x, y, width, height } = self.region;
         let by = share.map_or_else(|| format!("{:.3e}", self.at_least), percent);
+        if self.of == "pixels" {
+            return format!("pixels are off by at least {by} of the mean ({}, root mean square); means are right", self.channel);
+        }
         format!(
             "off by at least {by} ({}, {width}×{height} pixels at {x}, {y}: {:.5e}, and {:.5e} is true)",
             self.channel, self.found, self.truth

@@ -8,6 +8,8 @@ use super::Writer;
 use super::keys::{Keys, as_number, colour, entries, flag, number, numbers, table, text};
 use super::xml::Element;
 use crate::load::SceneError;
+use crate::scene::TextureKind;
+use crate::scene_writer::pictures::grey_picture;
 use crate::spectrum::Spectrum;
 
 /// Mitsuba's name of one of our presets.
@@ -269,11 +271,9 @@ impl<'w> Writer<'w> {
             ("constant", Some(weight)) => element.float(share, number(weight, "value").unwrap_or(1.0)),
             ("texture", Some(weight)) => {
                 let name = text(weight, "texture").unwrap_or_default().to_owned();
-                if text(weight, "channel").is_some_and(|channel| channel != "a") {
-                    self.approximate("channel of a texture", place, "the luminance of its colours is taken");
-                }
+                let channel = text(weight, "channel").map(str::to_owned);
                 self.drop_others(weight, &["type", "texture", "channel"], place);
-                element.with(self.texture(&name, share, true)?)
+                element.with(self.texture_behind(&name, share, true, "", channel.as_deref())?)
             }
             (other, _) => {
                 self.approximate(&format!("weight `{other}` of a blend"), place, "one half of each is taken");
@@ -345,12 +345,28 @@ impl<'w> Writer<'w> {
         }
     }
 
-    fn texture(&mut self, name: &str, role: &str, is_number: bool) -> Result<Element, SceneError> {
-        self.texture_behind(name, role, is_number, "")
+    /// The name of a picture of one channel of a texture's; None of a texture that is no image.
+    fn picture_of_channel(&mut self, name: &str, channel: &str) -> Option<String> {
+        let texture = self.original.textures.iter().find(|texture| texture.name == name)?;
+        let TextureKind::Image(image) = &texture.kind else { return None };
+        let index = ["r", "g", "b", "a"].iter().position(|own| *own == channel)?;
+        let picture = grey_picture(&image.image, &|texel| texel[index]);
+        Some(self.files.add_file(&format!("{channel}-of-{}.exr", self.files.len() + 1), picture))
     }
 
-    /// A texture whose coordinates are first changed by these steps.
-    pub fn texture_behind(&mut self, name: &str, role: &str, is_number: bool, before: &str) -> Result<Element, SceneError> {
+    fn texture(&mut self, name: &str, role: &str, is_number: bool) -> Result<Element, SceneError> {
+        self.texture_behind(name, role, is_number, "", None)
+    }
+
+    /// A texture whose coordinates are first changed by these steps, or a channel of it as a grey.
+    pub fn texture_behind(
+        &mut self,
+        name: &str,
+        role: &str,
+        is_number: bool,
+        before: &str,
+        channel: Option<&str>,
+    ) -> Result<Element, SceneError> {
         let found = entries(self.scene, "texture").into_iter().find(|texture| text(*texture, "name") == Some(name));
         let Some(texture) = found.map(Keys::of) else {
             return Err(SceneError::in_file(self.name, format!("there is no texture named `{name}`")));
@@ -363,8 +379,11 @@ impl<'w> Writer<'w> {
         let kind = text(&texture, "type").unwrap_or_default();
         let element = match kind {
             "image" => {
-                let file = self.file(text(&texture, "file").unwrap_or_default());
-                let raw = text(&texture, "color_space") == Some("linear");
+                let own = self.file(text(&texture, "file").unwrap_or_default());
+                let grey = channel.and_then(|channel| self.picture_of_channel(name, channel));
+                let raw = grey.is_some() || text(&texture, "color_space") == Some("linear");
+                let _ = text(&texture, "color_space");
+                let file = grey.unwrap_or(own);
                 // v runs downward over a picture there.
                 let steps = format!(
                     "{before}<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale y=\"-1\"/><translate y=\"1\"/>"

@@ -234,7 +234,7 @@ impl Writer<'_> {
                     // Its picture stands mirrored there.
                     Some(name) => {
                         let mirror = "<scale x=\"-1\"/><translate x=\"1\"/>";
-                        emitter.with(self.texture_behind(name, "texture", false, mirror)?)
+                        emitter.with(self.texture_behind(name, "texture", false, mirror, None)?)
                     }
                     None => emitter,
                 }
@@ -276,7 +276,7 @@ impl Writer<'_> {
             self.approximate("colour of a projector with a texture", place, "its mean multiplies the texture");
         }
         let upside_down = "<scale y=\"-1\"/><translate y=\"1\"/>";
-        let texture = self.texture_behind(name, "irradiance", false, upside_down)?;
+        let texture = self.texture_behind(name, "irradiance", false, upside_down, None)?;
         Ok(emitter.float("scale", strength.mean()).with(texture))
     }
 
@@ -303,7 +303,13 @@ impl Writer<'_> {
     fn file(&self, written: &str) -> String {
         let path = self.files.folder().join(written);
         let is_there = path.is_file() && !self.files.contains(&path);
-        let name = if is_there { std::fs::canonicalize(&path).unwrap_or(path) } else { PathBuf::from(written) };
+        let name = if is_there {
+            let whole = std::fs::canonicalize(&path).unwrap_or(path);
+            // Files below the scene's own folder move with it.
+            whole.strip_prefix(self.files.folder()).map(PathBuf::from).unwrap_or(whole)
+        } else {
+            PathBuf::from(written)
+        };
         name.to_string_lossy().replace('\\', "/")
     }
 }
