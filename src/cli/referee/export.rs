@@ -10,7 +10,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use super::arguments::{ExportSuiteArguments, SceneForm};
-use super::chosen;
+use super::chosen::chosen;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::terminal;
 

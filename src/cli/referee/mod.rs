@@ -2,6 +2,7 @@
 
 mod arguments;
 mod badge;
+mod chosen;
 mod export;
 mod forms;
 mod junit;
@@ -10,13 +11,14 @@ mod report;
 mod run;
 mod runner;
 
-use gpt::referee::{Test, all_tests};
+use gpt::referee::Test;
 use serde::Serialize;
 
 use super::exit::{Exit, Failure};
 use super::terminal;
 pub use arguments::RefereeArguments;
 use arguments::{ListArguments, RefereeAction};
+use chosen::chosen;
 
 /// Does what the arguments say.
 pub fn run(arguments: &RefereeArguments) -> Result<Exit, Failure> {
@@ -25,19 +27,6 @@ pub fn run(arguments: &RefereeArguments) -> Result<Exit, Failure> {
         RefereeAction::Export(arguments) => export::run(arguments),
         RefereeAction::Run(arguments) => run::run(arguments),
     }
-}
-
-/// The tests of these names and families; all where none is named.
-fn chosen(names: &[String]) -> Result<Vec<Test>, Failure> {
-    let tests = all_tests();
-    for name in names {
-        if !tests.iter().any(|test| test.name == name || test.family() == name) {
-            let message = format!("there is no test and no family `{name}`");
-            return Err(Failure::Usage { message, help: Some("`gpt referee list` lists them".to_owned()) });
-        }
-    }
-    let is_chosen = |test: &Test| names.is_empty() || names.iter().any(|name| test.name == name || test.family() == name);
-    Ok(tests.into_iter().filter(is_chosen).collect())
 }
 
 #[derive(Serialize)]

@@ -12,9 +12,10 @@ use gpt::referee::{Test, TruthPicture, judge, replay, suite};
 use serde::Serialize;
 
 use super::arguments::RunArguments;
+use super::chosen::chosen;
 use super::report::{Shown, TestReport, Verdict, counts};
 use super::runner::{self, Picture, Runner, Wanted};
-use super::{badge, chosen, junit, page};
+use super::{badge, junit, page};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{interrupt, outputs, terminal};
 
@@ -91,25 +92,13 @@ pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
     let right = !reports.iter().any(|report| report.verdict.is_wrong());
     if arguments.json {
-        let command = runner.as_ref().map(Runner::command);
-        let Report { false_alarms, runs, .. } = Report {
-            suite: suite::VERSION,
-            renderer: &name,
-            command: None,
-            spp,
-            runs: arguments.runs,
-            false_alarms: arguments.false_alarms,
-            seconds,
-            right,
-            tests: &reports,
-        };
         terminal::answer_json(&Report {
             suite: suite::VERSION,
             renderer: &name,
-            command,
+            command: runner.as_ref().map(Runner::command),
             spp,
-            runs,
-            false_alarms,
+            runs: arguments.runs,
+            false_alarms: arguments.false_alarms,
             seconds,
             right,
             tests: &reports,

@@ -11,7 +11,7 @@ use super::arguments::{KnownRenderer, RunArguments, SceneForm};
 use crate::cli::exit::Failure;
 use crate::cli::interrupt;
 
-/// Runners of renderers that are Python packages, each one small file: `RUNNER {scene} {output} {spp} {seed} [VARIANT]`.
+/// Runners of renderers that are Python packages, each one small file: `RUNNER {scene} {output} {spp} {seed} …`.
 const MITSUBA: &str = include_str!("runners/run_mitsuba.py");
 const CYCLES: &str = include_str!("runners/run_cycles.py");
 
@@ -67,7 +67,11 @@ impl Runner {
                 let words = of_python("run_mitsuba.py", MITSUBA)?.into_iter().chain(["scalar_rgb".to_owned()]).collect();
                 ("Mitsuba (scalar)", SceneForm::Mitsuba, words)
             }
-            (Some(KnownRenderer::Cycles), _) => ("Cycles", SceneForm::Gltf, of_python("run_cycles.py", CYCLES)?),
+            (Some(KnownRenderer::Cycles), _) => {
+                let words =
+                    of_python("run_cycles.py", CYCLES)?.into_iter().chain(["{width}", "{height}"].map(str::to_owned)).collect();
+                ("Cycles", SceneForm::Gltf, words)
+            }
             (None, Some(command)) => {
                 let words = words_of(command)?;
                 let name = Path::new(&words[0]).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
