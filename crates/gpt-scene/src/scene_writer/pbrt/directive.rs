@@ -86,7 +86,7 @@ impl Directive {
         self.parameter("point3", name, value.to_array().map(|coordinate| coordinate.to_string()))
     }
 
-    /// Single-precision numbers of points (`point3`, `point2`) or normals (`normal`).
+    /// Single-precision numbers, of points (`point3`, `point2`), of normals (`normal`), or plain ones (`float`).
     pub fn coordinates(self, kind: &str, name: &str, values: impl IntoIterator<Item = f32>) -> Self {
         self.parameter(kind, name, values.into_iter().map(|value| value.to_string()))
     }
