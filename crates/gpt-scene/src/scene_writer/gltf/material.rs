@@ -45,7 +45,7 @@ impl Writer<'_> {
         let place = &self.place_of(id);
         let emission = emission_of(self.scene, id, place, &mut self.losses);
         if let Some(emission) = emission {
-            // Where the surface is there by a share, so is its light.
+            // A surface that is there by a share gives off its light by that share too.
             draft.emission = match &draft.alpha {
                 Alpha::Opaque => Some(emission.radiance),
                 Alpha::Blend(Share::Constant(share)) if *share > 0.0 => {

@@ -99,7 +99,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What the picture is, beside the scene that it shows.
+    /// Reports what concerns the whole scene.
     fn report_settings(&mut self) {
         let scene = self.scene;
         if scene.animation.frames().is_some() {

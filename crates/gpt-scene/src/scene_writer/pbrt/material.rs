@@ -5,7 +5,7 @@ use super::directive::{Directive, Number, Tint};
 use super::glass::Glass;
 use crate::load::file::metal_symbol;
 use crate::scene::{
-    ColorInput, ConductorFresnel, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, TextureId,
+    ColorInput, ConductorFresnel, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, TextureId,
 };
 use crate::scene_writer::inputs::{Colour, Scalar};
 use crate::spectrum::Spectrum;
@@ -13,7 +13,7 @@ use crate::spectrum::Spectrum;
 /// The texture that bends a blend's normals.
 pub type Relief = TextureId;
 
-/// What stands for a material.
+/// The name and the alpha that stand for a material.
 #[derive(Debug, Clone)]
 pub struct Made {
     /// The name of a material; None where light goes straight through.
@@ -169,7 +169,7 @@ impl Writer<'_> {
                 }
             }
             MaterialKind::Diffuse { reflectance } => self.diffuse(Colour::of(*reflectance), place),
-            // What it gives off is said by shapes; others are made of parts.
+            // Shapes say what an emissive one gives off; others are made of parts.
             MaterialKind::Emissive
             | MaterialKind::Principled(_)
             | MaterialKind::Blend { .. }
@@ -242,7 +242,7 @@ impl Writer<'_> {
             if facets.distribution != MicrofacetDistribution::Ggx {
                 self.approximate("distribution of microfacets", place, "it is GGX of the same width");
             }
-            if facets.masking != crate::scene::Masking::HeightCorrelated {
+            if facets.masking != Masking::HeightCorrelated {
                 self.approximate("masking = \"separable\"", place, "it is height-correlated");
             }
         }

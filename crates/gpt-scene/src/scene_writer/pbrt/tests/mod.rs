@@ -197,6 +197,22 @@ fn blends_are_mixtures_and_openings() {
     assert!(find(&statements, "Shape", "sphere").parameter("alpha").is_none(), "the control");
 }
 
+/// A lamp that is there by a share gives off that share of its light, by its alpha alone.
+#[test]
+fn light_of_openings_is_not_halved_twice() {
+    let lamp = |second: &str| {
+        let tables = format!(
+            "[[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = [5, 6, 7]\n[[material]]\nname = \"other\"\ntype = \"{second}\"\n\
+             [[material]]\nname = \"probe\"\ntype = \"blend\"\nmaterials = [\"lamp\", \"other\"]\nweight = {{ type = \"constant\", value = 0.25 }}\n{SPHERE}"
+        );
+        let statements = written(&scene(&tables)).0;
+        let alpha = find(&statements, "Shape", "sphere").numbers_of("alpha");
+        (find(&statements, "AreaLightSource", "diffuse").numbers_of("L"), alpha)
+    };
+    assert_eq!(lamp("pass"), (vec![5.0, 6.0, 7.0], vec![0.25]));
+    assert_eq!(lamp("glass"), (vec![1.25, 1.5, 1.75], Vec::new()), "the control");
+}
+
 /// The map from a shape's space to the world as pbrt reads it.
 fn map_of(statement: &Statement) -> DAffine3 {
     let columns: [f64; 16] = statement.numbers.clone().try_into().unwrap();
@@ -270,8 +286,8 @@ fn media_are_on_both_sides_of_their_surfaces() {
         .filter(|statement| statement.name == "MediumInterface")
         .map(|statement| statement.texts.join("|"))
         .collect();
-    // The camera, the light, and the sphere.
-    assert_eq!(interfaces, ["|fog", "|fog", "milk|fog"]);
+    // The camera, nothing for surfaces that bound no medium, the light, and the sphere.
+    assert_eq!(interfaces, ["|fog", "|", "|fog", "milk|fog"]);
     find(&statements, "Integrator", "volpath");
     let clear = tables.replace("medium = \"fog\"\n", "").replace("interior = \"milk\"\n", "");
     let (statements, ..) = written(&scene(&clear));
