@@ -7,19 +7,11 @@ use glam::{DAffine3, Vec3};
 use serde_json::{Value, json};
 
 use super::Writer;
-use super::material::Made;
+use super::made::{Made, MeshKey};
 use super::paint::Painted;
 use super::tangents::with_tangents;
 use crate::scene::{Geometry, MaterialId, Mesh, Shape, Transform, TransformStep};
 use crate::scene_writer::tessellation::{PLANE, part_of, tessellated};
-
-/// The properties that tell meshes apart: those of a shape, or of a group with a material in place of its own ones.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum MeshKey {
-    /// The address of a mesh in memory, and the shape's material.
-    Shared(usize, MaterialId),
-    Group(usize, Option<MaterialId>),
-}
 
 impl Writer<'_> {
     /// The index of the mesh of a shape in its own space; None where there is nothing to see.

@@ -107,6 +107,17 @@ impl Directive {
         }
     }
 
+    /// The widths of microfacets under the names `roughness`, or `uroughness` and `vroughness`, behind a prefix.
+    pub fn rough(self, prefix: &str, [along, across]: &[Number; 2]) -> Self {
+        let directive = if along == across {
+            self.number(&format!("{prefix}roughness"), along)
+        } else {
+            self.number(&format!("{prefix}uroughness"), along).number(&format!("{prefix}vroughness"), across)
+        };
+        // Numbers are widths, and not roots of some: one word for a coat and what is below it.
+        if prefix == "interface." { directive } else { directive.flag("remaproughness", false) }
+    }
+
     /// The parameter where there is one.
     pub fn some<T>(self, value: Option<T>, with: impl FnOnce(Self, T) -> Self) -> Self {
         match value {

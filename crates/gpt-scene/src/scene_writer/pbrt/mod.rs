@@ -12,6 +12,7 @@ mod directive;
 mod environment;
 mod glass;
 mod light;
+mod made;
 mod material;
 mod medium;
 mod principled;
@@ -24,7 +25,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use self::directive::Directive;
-use self::material::{Made, Relief};
+use self::made::{Made, Relief};
 use super::losses::Losses;
 use super::surroundings::{Surroundings, with_media_below_surfaces};
 use super::written::WrittenScene;

@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::Writer;
 use super::directive::{Directive, Number};
-use super::material::Made;
+use super::made::Made;
 use crate::load::file::writer::ply;
 use crate::scene::texture::mean_of_texture;
 use crate::scene::{Emission, Geometry, MaterialId, Mesh, Scene, Shape};

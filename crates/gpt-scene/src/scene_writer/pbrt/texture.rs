@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Writer;
 use super::directive::{Directive, Number, Tint};
-use super::material::Relief;
+use super::made::Relief;
 use crate::load::file::writer::{is_on_disk, picture, picture_format};
 use crate::scene::{
     ColorSpace, ImageData, ImageSource, ImageTexture, Relief as Bend, Texels, Texture, TextureFilter, TextureId, TextureKind,
