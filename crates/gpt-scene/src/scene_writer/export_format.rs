@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use super::{WrittenScene, as_gltf, as_mitsuba, as_pbrt};
+use super::gltf::as_gltf;
+use super::mitsuba::as_mitsuba;
+use super::pbrt::as_pbrt;
+use super::written::WrittenScene;
 use crate::load::SceneError;
 use crate::scene::Scene;
 

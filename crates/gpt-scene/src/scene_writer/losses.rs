@@ -2,7 +2,7 @@
 
 use crate::scene::ImportReport;
 
-/// What a format cannot say of a scene, with its places.
+/// The parts of a scene that a format cannot say, with their places.
 pub struct Losses {
     /// The scene, as reports call it.
     scene: String,

@@ -4,7 +4,7 @@
 //! Meshes and pictures that came from files are named, those that did not lie in files beside the scene file. Reading it again gives a scene
 //! that renders the same picture, bit for bit.
 //!
-//! What the formats of other programs cannot say is in `losses`. What several of them need: `inputs` and `weights`, functions of texels; `pictures`,
+//! `losses` names what the formats of other programs cannot say. Modules that several of them need: `inputs` and `weights`, functions of texels; `pictures`,
 //! those that are made of others; `tessellation`, shapes as triangles; `surroundings`, the media on both sides of shapes; `emission`, the light of
 //! blends.
 

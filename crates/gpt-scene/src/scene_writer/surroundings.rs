@@ -34,9 +34,9 @@ pub struct Surroundings {
     hulls: Vec<Hull>,
     /// The medium around all of them.
     around_camera: Option<Content>,
-    /// By material: something else is within its surfaces than around them. Empty where the scene has no media.
+    /// For each material: something else is within its surfaces than around them. Empty where the scene has no media.
     is_hull: Vec<bool>,
-    /// By material: the content of its bodies. Empty where the scene has no media.
+    /// For each material: the content of its bodies. Empty where the scene has no media.
     within: Vec<Option<Content>>,
 }
 

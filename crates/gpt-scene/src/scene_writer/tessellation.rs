@@ -106,7 +106,7 @@ fn of_rows(columns: u32, rows: u32, vertex: impl Fn(f64, f64) -> [DVec3; 2]) -> 
     mesh
 }
 
-/// By the texture coordinates that spheres have: u about +Y from −Z over +X, v from the lowest to the highest point.
+/// Rows follow the texture coordinates that spheres have: u about +Y from −Z over +X, v from the lowest to the highest point.
 fn of_sphere(sphere: &Sphere) -> Tessellated {
     let direction = |u: f64, v: f64| {
         let ((sine, cosine), (x, minus_z)) = ((PI * v).sin_cos(), (TAU * u).sin_cos());

@@ -1,4 +1,4 @@
-//! What the file is packed in.
+//! The container of a file: JSON alone, or the chunks of a binary file.
 
 use serde_json::Value;
 

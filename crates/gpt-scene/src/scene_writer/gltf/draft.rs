@@ -19,7 +19,7 @@ pub struct Draft {
     pub interior: Option<MediumId>,
 }
 
-/// How far a surface is there.
+/// The part of a surface that is there.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Alpha {
     Opaque,
@@ -41,7 +41,7 @@ pub enum Share {
 }
 
 impl Writer<'_> {
-    /// What stands for a material; None where nothing is to be seen.
+    /// The draft that stands for a material; None where nothing is to be seen.
     pub fn draft(&mut self, id: MaterialId, depth: usize) -> Option<Draft> {
         let scene = self.scene;
         let material = &scene.materials[id];
@@ -97,7 +97,7 @@ impl Writer<'_> {
         }
     }
 
-    /// How far the first part of a blend is there, or the second one if `is_rest`.
+    /// The share by which the first part of a blend is there, or the second one if `is_rest`.
     fn alpha(&mut self, weight: &BlendWeight, is_rest: bool, place: &str) -> Alpha {
         if let Some(share) = weights::constant(weight) {
             let share = if is_rest { 1.0 - share } else { share };

@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::Writer;
 use super::draft::{Alpha, Draft, Share};
+use super::made::Made;
 use super::packing::Factors;
 use super::volume::has_volume;
 use crate::scene::{BlendWeight, Channel, CoatNormalMap, ColorInput, Geometry, MaterialId, Principled, Relief, Shape, TextureId};
@@ -14,20 +15,6 @@ use crate::spectrum::Spectrum;
 
 /// The largest colour of reflection of a dielectric.
 const ANY: f64 = f64::MAX;
-
-/// A material of the file.
-#[derive(Debug, Clone)]
-pub struct Made {
-    pub index: usize,
-    /// The texture of colours of vertices by which its base colour is multiplied.
-    pub paint: Option<TextureId>,
-    /// The vertices' alpha multiplies its opacity.
-    pub paints_alpha: bool,
-    /// The sets of texture coordinates that it uses.
-    pub uses_sets: [bool; 2],
-    /// Its microfacets are wider in a direction, or its coat is bent along one, that no normal map says.
-    pub needs_tangents: bool,
-}
 
 impl Writer<'_> {
     /// Writes a material once; None where nothing is to be seen.
@@ -45,7 +32,7 @@ impl Writer<'_> {
         let place = &self.place_of(id);
         let emission = emission_of(self.scene, id, place, &mut self.losses);
         if let Some(emission) = emission {
-            // Where the surface is there by a share, so is its light.
+            // A surface that is there by a share gives off its light by that share too.
             draft.emission = match &draft.alpha {
                 Alpha::Opaque => Some(emission.radiance),
                 Alpha::Blend(Share::Constant(share)) if *share > 0.0 => {

@@ -3,23 +3,15 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use glam::DAffine3;
+use glam::{DAffine3, Vec3};
 use serde_json::{Value, json};
 
 use super::Writer;
-use super::material::Made;
+use super::made::{Made, MeshKey};
 use super::paint::Painted;
 use super::tangents::with_tangents;
-use crate::scene::{Geometry, MaterialId, Mesh, Shape};
+use crate::scene::{Geometry, MaterialId, Mesh, Shape, Transform, TransformStep};
 use crate::scene_writer::tessellation::{PLANE, part_of, tessellated};
-
-/// The properties that tell meshes apart: those of a shape, or of a group with a material in place of its own ones.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum MeshKey {
-    /// The address of a mesh in memory, and the shape's material.
-    Shared(usize, MaterialId),
-    Group(usize, Option<MaterialId>),
-}
 
 impl Writer<'_> {
     /// The index of the mesh of a shape in its own space; None where there is nothing to see.
@@ -95,7 +87,7 @@ impl Writer<'_> {
 
     fn primitive(&mut self, mesh: Mesh, material: &Made, place: &str) -> Value {
         let Painted { mut mesh, colours } = self.painted(mesh, material, place);
-        // Where a mesh has one set, it serves for both. The second one needs a first.
+        // One set of a mesh serves for both. The second one needs a first.
         if material.uses_sets[1] && mesh.second_uvs.is_empty() {
             mesh.second_uvs.clone_from(&mesh.uvs);
         }
@@ -111,10 +103,10 @@ impl Writer<'_> {
         } else {
             None
         };
-        let mut attributes = json!({ "POSITION": self.buffer.vectors(&arrays(&mesh.positions, glam::Vec3::to_array), true) });
+        let mut attributes = json!({ "POSITION": self.buffer.vectors(&arrays(&mesh.positions, Vec3::to_array), true) });
         if mesh.smooth && !mesh.normals.is_empty() {
             // Lengths of 1 are asked for.
-            let unit = |normal: &glam::Vec3| normal.normalize_or(glam::Vec3::Y).to_array();
+            let unit = |normal: &Vec3| normal.normalize_or(Vec3::Y).to_array();
             attributes["NORMAL"] = json!(self.buffer.vectors(&arrays(&mesh.normals, unit), false));
         }
         if let Some(tangents) = tangents {
@@ -147,7 +139,7 @@ fn placed(mesh: Mesh, map: &DAffine3) -> Mesh {
         label: String::new(),
         geometry: Geometry::Mesh(mesh.clone().into()),
         material: 0,
-        transform: crate::scene::Transform { steps: vec![crate::scene::TransformStep::Matrix(*map)] },
+        transform: Transform { steps: vec![TransformStep::Matrix(*map)] },
         motion: None,
         portal: false,
     };

@@ -8,6 +8,7 @@ mod camera;
 mod container;
 mod draft;
 mod light;
+mod made;
 mod material;
 mod mesh;
 mod nearest;
@@ -24,7 +25,7 @@ use std::path::Path;
 use serde_json::{Map, Value, json};
 
 use self::buffer::Buffer;
-use self::mesh::MeshKey;
+use self::made::{Made, MeshKey};
 use super::losses::Losses;
 use super::surroundings::with_media_below_surfaces;
 use super::written::WrittenScene;
@@ -75,7 +76,7 @@ struct Writer<'w> {
     materials: Names,
     buffer: Buffer,
     lists: Lists,
-    made_materials: HashMap<MaterialId, Option<material::Made>>,
+    made_materials: HashMap<MaterialId, Option<Made>>,
     made_meshes: HashMap<MeshKey, Option<usize>>,
     /// Indices of textures and images, by what they are made from.
     made_textures: HashMap<String, usize>,
@@ -99,7 +100,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What the picture is, beside the scene that it shows.
+    /// Reports what concerns the whole scene.
     fn report_settings(&mut self) {
         let scene = self.scene;
         if scene.animation.frames().is_some() {

@@ -1,8 +1,9 @@
 //! For each type of material the principled one that is nearest.
 
 use super::Writer;
+use crate::scene::texture::mean_of_channel;
 use crate::scene::{
-    Channel, ChannelInput, ColorInput, ConductorFresnel, LayerStack, Masking, MaterialKind, MicrofacetDistribution, Microfacets,
+    ChannelInput, ColorInput, ConductorFresnel, LayerStack, Masking, MaterialKind, MicrofacetDistribution, Microfacets,
     Principled,
 };
 use crate::scene_writer::inputs::{Colour, Scalar};
@@ -69,7 +70,7 @@ impl Writer<'_> {
             MaterialKind::Phong { diffuse: base, specular, exponent } => {
                 near("a rough dielectric is taken");
                 let roughness = self.roughness_of_exponent(*exponent, place);
-                let specular_color = self.over_reflectance(*specular, 1.5, place);
+                let specular_color = over_reflectance(*specular, 1.5);
                 Principled { base_color: *base, roughness, specular_color, ..plain() }
             }
             MaterialKind::Glossy { reflectance, exponent } => {
@@ -222,7 +223,7 @@ impl Writer<'_> {
             ColorInput::Texture(_) | ColorInput::ScaledTexture(..) | ColorInput::Channel(_) => {
                 self.approximate("texture of the width of microfacets", place, "the root of its mean is taken");
                 let Scalar::Map(map) = Scalar::of(alpha) else { return ONE };
-                let mean = crate::scene::texture::mean_of_channel(&self.scene.textures, map.texture, map.channel);
+                let mean = mean_of_channel(&self.scene.textures, map.texture, map.channel);
                 ColorInput::grey((mean * map.factor).max(0.0).sqrt().min(1.0))
             }
         }
@@ -230,18 +231,14 @@ impl Writer<'_> {
 
     /// The roughness of microfacets that reflect about as a power of a cosine does.
     fn roughness_of_exponent(&mut self, exponent: ColorInput, place: &str) -> ColorInput {
-        let exponent = Scalar::of(exponent).constant().unwrap_or_else(|| {
-            self.approximate("exponent by a texture", place, "its mean is taken");
-            let texture = exponent.texture().unwrap_or_default();
-            crate::scene::texture::mean_of_channel(&self.scene.textures, texture, Channel::R)
-        });
+        let exponent = match Scalar::of(exponent) {
+            Scalar::Constant(exponent) => exponent,
+            Scalar::Map(map) => {
+                self.approximate("exponent by a texture", place, "its mean is taken");
+                mean_of_channel(&self.scene.textures, map.texture, map.channel) * map.factor
+            }
+        };
         ColorInput::grey((2.0 / (exponent.max(0.0) + 2.0)).powf(0.25))
-    }
-
-    /// The colour of reflection of a dielectric that reflects so much along the normal.
-    fn over_reflectance(&mut self, reflected: ColorInput, ior: f64, _place: &str) -> ColorInput {
-        let own = ((ior - 1.0) / (ior + 1.0)).powi(2);
-        reflected.scaled(Spectrum::grey(1.0 / own))
     }
 
     fn possible_ior(&mut self, ior: f64, place: &str) -> f64 {
@@ -251,6 +248,12 @@ impl Writer<'_> {
         }
         possible
     }
+}
+
+/// The colour of reflection of a dielectric that reflects so much along the normal.
+fn over_reflectance(reflected: ColorInput, ior: f64) -> ColorInput {
+    let own = ((ior - 1.0) / (ior + 1.0)).powi(2);
+    reflected.scaled(Spectrum::grey(1.0 / own))
 }
 
 /// The reflectance along the normal of a metal.

@@ -8,7 +8,7 @@ use super::Writer;
 use super::draft::Share;
 use super::texture::{Pictured, Role};
 use crate::scene::texture::{mean_of_channel, mean_of_texture};
-use crate::scene::{Channel, ImageData, TextureId};
+use crate::scene::{BlendWeight, Channel, ImageData, TextureId};
 use crate::scene_writer::inputs::{Colour, ColourMap, Scalar, ScalarMap};
 use crate::scene_writer::weights;
 use crate::spectrum::Spectrum;
@@ -136,7 +136,7 @@ impl Writer<'_> {
         };
         self.report_product(id, place);
         // The alpha of the base colour's own texture.
-        if let (crate::scene::BlendWeight::Channel { channel: Channel::A, factor: share, .. }, Colour::Map(map), false) =
+        if let (BlendWeight::Channel { channel: Channel::A, factor: share, .. }, Colour::Map(map), false) =
             (weight, colour, is_rest)
             && (map.texture, map.is_plain(), (0.0..=1.0).contains(share)) == (id, true, true)
             && map.factor.max_component() <= 1.0

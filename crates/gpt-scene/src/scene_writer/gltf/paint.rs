@@ -1,7 +1,7 @@
 //! Colours of vertices: textures of the filter `triangle`, which have a block of texels for each triangle.
 
 use super::Writer;
-use super::material::Made;
+use super::made::Made;
 use crate::scene::{Mesh, TextureFilter, TextureId, TextureKind};
 use crate::scene_writer::inputs::{Colour, ColourMap};
 use crate::spectrum::Spectrum;

@@ -1,4 +1,4 @@
-//! What fills bodies that let light in.
+//! Media within bodies that let light in.
 
 use serde_json::{Map, Value, json};
 

@@ -86,7 +86,7 @@ impl Directive {
         self.parameter("point3", name, value.to_array().map(|coordinate| coordinate.to_string()))
     }
 
-    /// Single-precision numbers of points (`point3`, `point2`) or normals (`normal`).
+    /// Single-precision numbers, of points (`point3`, `point2`), of normals (`normal`), or plain ones (`float`).
     pub fn coordinates(self, kind: &str, name: &str, values: impl IntoIterator<Item = f32>) -> Self {
         self.parameter(kind, name, values.into_iter().map(|value| value.to_string()))
     }
@@ -105,6 +105,17 @@ impl Directive {
             Tint::Constant(value) => self.rgb(name, *value),
             Tint::Texture(texture) => self.parameter("texture", name, [quoted(texture)]),
         }
+    }
+
+    /// The widths of microfacets under the names `roughness`, or `uroughness` and `vroughness`, behind a prefix.
+    pub fn rough(self, prefix: &str, [along, across]: &[Number; 2]) -> Self {
+        let directive = if along == across {
+            self.number(&format!("{prefix}roughness"), along)
+        } else {
+            self.number(&format!("{prefix}uroughness"), along).number(&format!("{prefix}vroughness"), across)
+        };
+        // Numbers are widths, and not roots of some: one word for a coat and what is below it.
+        if prefix == "interface." { directive } else { directive.flag("remaproughness", false) }
     }
 
     /// The parameter where there is one.

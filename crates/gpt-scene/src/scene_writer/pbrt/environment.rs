@@ -69,6 +69,7 @@ pub fn radiance(light: &Environment, map: &ImageData, direction: DVec3) -> Spect
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{EnvironmentRadiance, MapRows};
 
     #[test]
     fn every_texel_covers_the_same_solid_angle() {
@@ -117,9 +118,9 @@ mod tests {
         let texels = Texels::Float((0..32).map(|index| [index as f32, 0.0, 0.0]).collect());
         let map = ImageData { width: 8, height: 4, texels, has_alpha: false };
         let light = |rotation_degrees: f64| Environment {
-            radiance: crate::scene::EnvironmentRadiance::Constant(Spectrum::BLACK),
+            radiance: EnvironmentRadiance::Constant(Spectrum::BLACK),
             rotation_degrees,
-            rows: crate::scene::MapRows::Inside,
+            rows: MapRows::Inside,
             mirrored: false,
         };
         // −z is at the left border and +x a quarter to the right; the second row's middle is above the horizon.

@@ -2,7 +2,6 @@
 
 use super::Writer;
 use super::directive::{Directive, Number};
-use super::material::rough;
 use crate::scene::Dispersion;
 use crate::scene::material::dispersion::WAVELENGTHS;
 
@@ -46,7 +45,7 @@ impl Writer<'_> {
                 None => directive.float("eta", ior),
             };
             match &alphas {
-                Some(alphas) => rough(directive, "", alphas),
+                Some(alphas) => directive.rough("", alphas),
                 None => directive,
             }
         })

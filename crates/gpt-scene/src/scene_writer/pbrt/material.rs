@@ -3,34 +3,13 @@
 use super::Writer;
 use super::directive::{Directive, Number, Tint};
 use super::glass::Glass;
+use super::made::{Made, Relief};
 use crate::load::file::metal_symbol;
 use crate::scene::{
-    ColorInput, ConductorFresnel, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, TextureId,
+    ColorInput, ConductorFresnel, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets,
 };
 use crate::scene_writer::inputs::{Colour, Scalar};
 use crate::spectrum::Spectrum;
-
-/// The texture that bends a blend's normals.
-pub type Relief = TextureId;
-
-/// What stands for a material.
-#[derive(Debug, Clone)]
-pub struct Made {
-    /// The name of a material; None where light goes straight through.
-    pub name: Option<String>,
-    /// The share of the surface that is there, which shapes state.
-    pub alpha: Number,
-}
-
-impl Made {
-    pub fn opaque(name: String) -> Self {
-        Self { name: Some(name), alpha: Number::Constant(1.0) }
-    }
-
-    pub fn nothing() -> Self {
-        Self { name: None, alpha: Number::Constant(1.0) }
-    }
-}
 
 impl Writer<'_> {
     /// Says a material once, and all that it is made of. `relief` bends the normals of what has no map of its own.
@@ -169,7 +148,7 @@ impl Writer<'_> {
                 }
             }
             MaterialKind::Diffuse { reflectance } => self.diffuse(Colour::of(*reflectance), place),
-            // What it gives off is said by shapes; others are made of parts.
+            // Shapes say what an emissive one gives off; others are made of parts.
             MaterialKind::Emissive
             | MaterialKind::Principled(_)
             | MaterialKind::Blend { .. }
@@ -186,7 +165,7 @@ impl Writer<'_> {
     /// A metal by its reflectance along the normal.
     pub fn metal(&mut self, reflectance: Colour, alphas: [Number; 2], place: &str) -> Box<dyn FnOnce(Directive) -> Directive> {
         let reflectance = self.albedo(reflectance, place);
-        Box::new(move |directive| rough(directive.string("type", "conductor").tint("reflectance", &reflectance), "", &alphas))
+        Box::new(move |directive| directive.string("type", "conductor").tint("reflectance", &reflectance).rough("", &alphas))
     }
 
     fn complex_metal(
@@ -211,23 +190,7 @@ impl Writer<'_> {
                 }
                 None => directive.rgb("eta", eta).rgb("k", k),
             };
-            rough(directive, "", &alphas)
-        })
-    }
-
-    /// A diffuse base below a dielectric surface.
-    pub fn coated(
-        &mut self,
-        reflectance: Colour,
-        alphas: [Number; 2],
-        ior: f64,
-        place: &str,
-    ) -> Box<dyn FnOnce(Directive) -> Directive> {
-        let reflectance = self.albedo(reflectance, place);
-        Box::new(move |directive| {
-            let directive = directive.string("type", "coateddiffuse").tint("reflectance", &reflectance);
-            let directive = directive.float("eta", ior).float("thickness", LAYER).integer("maxdepth", MOST_WITHIN);
-            rough(directive, "", &alphas)
+            directive.rough("", &alphas)
         })
     }
 
@@ -242,7 +205,7 @@ impl Writer<'_> {
             if facets.distribution != MicrofacetDistribution::Ggx {
                 self.approximate("distribution of microfacets", place, "it is GGX of the same width");
             }
-            if facets.masking != crate::scene::Masking::HeightCorrelated {
+            if facets.masking != Masking::HeightCorrelated {
                 self.approximate("masking = \"separable\"", place, "it is height-correlated");
             }
         }
@@ -281,20 +244,4 @@ impl Writer<'_> {
             Colour::Map(map) => self.tint_map(map, place),
         }
     }
-}
-
-/// Optical thickness of the layer between a coat and its base, where light is lost even if nothing scatters it.
-pub const LAYER: f64 = 1e-6;
-/// Reflections between a coat and its base that are followed.
-pub const MOST_WITHIN: i64 = 64;
-
-/// The widths of microfacets under the names `roughness`, or `uroughness` and `vroughness`, behind a prefix.
-pub fn rough(directive: Directive, prefix: &str, [along, across]: &[Number; 2]) -> Directive {
-    let directive = if along == across {
-        directive.number(&format!("{prefix}roughness"), along)
-    } else {
-        directive.number(&format!("{prefix}uroughness"), along).number(&format!("{prefix}vroughness"), across)
-    };
-    // Numbers are widths, and not roots of some.
-    if prefix == "interface." { directive } else { directive.flag("remaproughness", false) }
 }

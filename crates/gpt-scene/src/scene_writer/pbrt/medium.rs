@@ -1,8 +1,10 @@
 //! Media, and where they are.
 
+use glam::DVec3;
+
 use super::Writer;
 use super::directive::Directive;
-use crate::scene::{MaterialId, Medium, Phase, PhaseKind};
+use crate::scene::{MaterialId, Medium, MediumGrids, Outside, Phase, PhaseKind, VolumeFilter};
 use crate::scene_writer::surroundings::{Content, Sides, absorbs};
 use crate::spectrum::Spectrum;
 
@@ -13,7 +15,15 @@ impl Writer<'_> {
         for (id, medium) in scene.media.iter().enumerate() {
             let name = self.media.get(id).to_owned();
             let directive = self.medium(medium, &name);
-            self.push(directive);
+            match &medium.grids {
+                // The box of a grid lies as the transform in force says.
+                Some(grids) => {
+                    self.placed(&grids.density().to_index.inverse());
+                    self.push(directive);
+                    self.line("Identity".to_owned());
+                }
+                None => self.push(directive),
+            }
         }
         for (id, material) in scene.materials.iter().enumerate() {
             if let Some(absorption) = absorbs(&material.kind).filter(|_| material.interior.is_none()) {
@@ -24,15 +34,11 @@ impl Writer<'_> {
 
     fn medium(&mut self, medium: &Medium, name: &str) -> Directive {
         let place = format!("medium `{name}`");
-        let (mut absorption, mut scattering) = (medium.absorption, medium.scattering);
-        if let Some(grids) = &medium.grids {
-            let density = grids.density();
-            let values = density.grid.values();
-            let mean = values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len().max(1) as f64 * density.scale;
-            self.approximate("grid of a medium", &place, "it is as dense everywhere as it is in the mean");
-            (absorption, scattering) = (absorption * mean, scattering * mean);
-        }
-        let directive = homogeneous(name, absorption, scattering);
+        let (absorption, scattering) = (medium.absorption, medium.scattering);
+        let directive = match &medium.grids {
+            Some(grids) => self.grid(medium, grids, name, &place),
+            None => homogeneous(name, absorption, scattering),
+        };
         let g = self.mean_cosine(&medium.phase, &place);
         let directive = if g == 0.0 { directive } else { directive.float("g", g) };
         if medium.emission.is_black() {
@@ -48,6 +54,43 @@ impl Writer<'_> {
             self.drop("emission of a medium that absorbs nothing", &place, "it gives off no light");
         }
         directive.rgb("Le", Spectrum::from_rgb(given))
+    }
+
+    /// A medium that is as dense as a grid says, in the space of the grid's voxels.
+    fn grid(&mut self, medium: &Medium, grids: &MediumGrids, name: &str, place: &str) -> Directive {
+        let density = grids.density();
+        let mut scattering = medium.scattering;
+        if density.filter == VolumeFilter::Nearest {
+            self.approximate("grid of a medium without interpolation", place, "it is interpolated");
+        } else {
+            self.approximate("border of the grid of a medium", place, "it fades within half a voxel");
+        }
+        let goes_on = match density.outside {
+            Outside::Border => true,
+            Outside::Constant(value) => !value.is_black(),
+        };
+        if goes_on {
+            self.drop("density of a medium outside of its grid", place, "it ends with the grid");
+        }
+        if let Some(albedo) = grids.albedo() {
+            self.approximate("albedo of a medium by a grid", place, "its mean is taken");
+            scattering = scattering * mean(albedo.grid.values()) * albedo.scale;
+        }
+        let absorption = medium.extinction() - scattering;
+        if grids.emission().is_some() && !medium.emission.is_black() {
+            self.approximate("emission of a medium by a grid", place, "it is given off in proportion to the density");
+        }
+        let channels = density.grid.channels();
+        if channels > 1 {
+            self.approximate("coloured density of a medium", place, "the mean of its colours is taken");
+        }
+        let values: Vec<f32> = density.grid.values().chunks_exact(channels).map(|voxel| mean(voxel) as f32).collect();
+        let [x, y, z] = density.grid.resolution();
+        let directive = Directive::new("MakeNamedMedium", &[name]).string("type", "uniformgrid");
+        let directive = directive.rgb("sigma_a", absorption).rgb("sigma_s", scattering).float("scale", density.scale);
+        let directive = directive.point("p0", DVec3::ZERO).point("p1", DVec3::new(x.into(), y.into(), z.into()));
+        let directive = directive.integer("nx", x.into()).integer("ny", y.into()).integer("nz", z.into());
+        directive.coordinates("float", "density", values)
     }
 
     /// The one phase function there is Henyey and Greenstein's.
@@ -79,6 +122,10 @@ impl Writer<'_> {
         let [inside, outside] = [inside, outside].map(|content| self.name_of(content));
         (inside != outside).then(|| Directive::new("MediumInterface", &[&inside, &outside]))
     }
+}
+
+fn mean(values: &[f32]) -> f64 {
+    values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len().max(1) as f64
 }
 
 fn homogeneous(name: &str, absorption: Spectrum, scattering: Spectrum) -> Directive {

@@ -12,6 +12,7 @@ mod directive;
 mod environment;
 mod glass;
 mod light;
+mod made;
 mod material;
 mod medium;
 mod principled;
@@ -24,7 +25,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use self::directive::Directive;
-use self::material::{Made, Relief};
+use self::made::{Made, Relief};
 use super::losses::Losses;
 use super::surroundings::{Surroundings, with_media_below_surfaces};
 use super::written::WrittenScene;
@@ -66,18 +67,18 @@ struct Writer<'w> {
     losses: Losses,
     files: SideFiles,
     materials: Names,
-    /// Of the media, then of what may be within bodies of each material.
+    /// Names of the media, then of what may be within bodies of each material.
     media: Names,
     /// Names of materials and textures that stand in the text.
     taken: HashSet<String>,
-    /// What stands for a material, with the map that bends the normals of a blend that it is a part of.
+    /// Materials that are written, each with the map that bends the normals of a blend that it is a part of.
     made: HashMap<(MaterialId, Option<Relief>), Made>,
     /// Names of textures, by what they are made from.
     textures: HashMap<String, String>,
     surroundings: Surroundings,
-    /// By material: it, or a part of it, looks up a texture.
+    /// For each material: it, or a part of it, looks up a texture.
     is_textured: Vec<bool>,
-    /// By material: a map bends its normals, or those of a part of it.
+    /// For each material: a map bends its normals, or those of a part of it.
     is_bent: Vec<bool>,
     out: String,
     /// Blocks of attributes around the next line.
@@ -92,6 +93,10 @@ impl Writer<'_> {
         self.camera();
         self.line(String::new());
         self.line("WorldBegin".to_owned());
+        if self.scene.camera_medium.is_some() {
+            // The camera's medium is not on the backs of all surfaces.
+            self.push(Directive::new("MediumInterface", &["", ""]));
+        }
         self.lights();
         self.shapes();
         self.instances();

@@ -3,7 +3,7 @@
 use super::Writer;
 use super::directive::{Directive, Number};
 use super::glass::Glass;
-use super::material::{Made, Relief};
+use super::made::{Made, Relief};
 use crate::scene::{ColorInput, Masking, Principled};
 use crate::scene_writer::inputs::{Colour, Scalar};
 use crate::spectrum::Spectrum;

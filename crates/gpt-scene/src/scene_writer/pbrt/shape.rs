@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::Writer;
 use super::directive::{Directive, Number};
-use super::material::Made;
+use super::made::Made;
 use crate::load::file::writer::ply;
 use crate::scene::texture::mean_of_texture;
 use crate::scene::{Emission, Geometry, MaterialId, Mesh, Scene, Shape};
@@ -76,7 +76,7 @@ impl Writer<'_> {
             self.drop("light of a surface that is not there", place, "it gives no light");
             return None;
         }
-        // Where the surface is there by a share, so is its light.
+        // A surface that is there by a share gives off its light by that share too.
         let radiance = match made.alpha {
             Number::Constant(alpha) if alpha > 0.0 => emission.radiance.scaled(Spectrum::grey(1.0 / alpha)),
             Number::Constant(_) => return None,
@@ -245,7 +245,7 @@ fn suffix(material: Option<MaterialId>) -> String {
     material.map_or_else(String::new, |material| format!(".as[{material}]"))
 }
 
-/// How a shape looks.
+/// The look of a shape.
 #[derive(Clone, Copy)]
 struct Look {
     shows_texture: bool,

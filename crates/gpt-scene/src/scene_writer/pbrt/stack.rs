@@ -2,9 +2,14 @@
 
 use super::Writer;
 use super::directive::{Directive, Number};
-use super::material::{LAYER, MOST_WITHIN, Made, Relief, rough};
+use super::made::{Made, Relief};
 use crate::scene::{ConductorFresnel, LayerStack, MaterialId, MaterialKind};
 use crate::scene_writer::inputs::{Colour, Scalar};
+
+/// Optical thickness of the layer between a coat and its base, where light is lost even if nothing scatters it.
+const LAYER: f64 = 1e-6;
+/// Reflections between a coat and its base that are followed.
+const MOST_WITHIN: i64 = 64;
 
 impl Writer<'_> {
     /// A coat over a diffuse or a metal base where the stack is one; else the lowest interface stands for all.
@@ -70,6 +75,22 @@ impl Writer<'_> {
         }
     }
 
+    /// A diffuse base below a dielectric surface.
+    pub fn coated(
+        &mut self,
+        reflectance: Colour,
+        alphas: [Number; 2],
+        ior: f64,
+        place: &str,
+    ) -> Box<dyn FnOnce(Directive) -> Directive> {
+        let reflectance = self.albedo(reflectance, place);
+        Box::new(move |directive| {
+            let directive = directive.string("type", "coateddiffuse").tint("reflectance", &reflectance);
+            let directive = directive.float("eta", ior).float("thickness", LAYER).integer("maxdepth", MOST_WITHIN);
+            directive.rough("", &alphas)
+        })
+    }
+
     /// A metal of that reflectance along the normal below a dielectric surface of that index of refraction.
     pub fn coated_metal(
         &mut self,
@@ -98,7 +119,7 @@ impl Writer<'_> {
 }
 
 fn coat_of_metal(directive: Directive, ior: f64, alphas: &[Number; 2], own: &[Number; 2]) -> Directive {
-    let directive = rough(directive.float("interface.eta", ior), "interface.", alphas);
+    let directive = directive.float("interface.eta", ior).rough("interface.", alphas);
     let directive = directive.float("thickness", LAYER).integer("maxdepth", MOST_WITHIN);
-    rough(directive, "conductor.", own)
+    directive.rough("conductor.", own)
 }

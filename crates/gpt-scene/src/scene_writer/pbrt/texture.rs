@@ -5,9 +5,12 @@ use std::sync::Arc;
 
 use super::Writer;
 use super::directive::{Directive, Number, Tint};
-use super::material::Relief;
+use super::made::Relief;
 use crate::load::file::writer::{is_on_disk, picture, picture_format};
-use crate::scene::{ColorSpace, ImageData, ImageTexture, Texels, Texture, TextureFilter, TextureId, TextureKind, TextureWrap};
+use crate::scene::{
+    ColorSpace, ImageData, ImageSource, ImageTexture, Relief as Bend, Texels, Texture, TextureFilter, TextureId, TextureKind,
+    TextureWrap, UvTransform,
+};
 use crate::scene_writer::inputs::{ColourMap, Scalar};
 use crate::scene_writer::pictures::{grey_picture, shown};
 use crate::spectrum::Spectrum;
@@ -105,7 +108,7 @@ impl Writer<'_> {
             return Some(name.clone());
         }
         self.approximate("texture of emission", place, "its texels are not interpolated, and it ends with the picture");
-        if texture.transform != crate::scene::UvTransform::default() || image.scale != [1.0; 2] {
+        if texture.transform != UvTransform::default() || image.scale != [1.0; 2] {
             self.drop("placement of a texture of emission", place, "it lies as the surface's texture coordinates do");
         }
         let content = picture(&shown(&image.image, &|texel| map.of_texel(texel)));
@@ -121,19 +124,19 @@ impl Writer<'_> {
             self.drop("normal_shadowing", place, "light that reaches bent normals does not fade");
         }
         match texture.relief {
-            crate::scene::Relief::Heights(scale) => {
+            Bend::Heights(scale) => {
                 let heights = self.number_map(relief, &format!("heights {scale}"), place, &|texel| texel[0] * scale);
                 match heights {
                     Number::Texture(_) => directive.number("displacement", &heights),
                     Number::Constant(_) => directive,
                 }
             }
-            crate::scene::Relief::Normals(scale) => {
+            Bend::Normals(scale) => {
                 let TextureKind::Image(image) = &texture.kind else {
                     self.drop("normal map that is no picture", place, "normals are not bent");
                     return directive;
                 };
-                let lies_otherwise = texture.transform != crate::scene::UvTransform::default() || image.scale != [1.0; 2];
+                let lies_otherwise = texture.transform != UvTransform::default() || image.scale != [1.0; 2];
                 if lies_otherwise || texture.by_second_uvs {
                     self.drop("placement of a normal map", place, "it lies as the surface's texture coordinates do");
                 }
@@ -157,7 +160,7 @@ impl Writer<'_> {
         self.approximate("texture of noise", place, "its mean is taken");
     }
 
-    /// How a picture is looked up.
+    /// Adds how a picture is looked up.
     fn lookup(&mut self, head: Directive, image: &ImageTexture, texture: &Texture, place: &str) -> Directive {
         let [along_u, along_v] = image.wrap;
         if along_u != along_v || along_u == TextureWrap::Mirror {
@@ -176,7 +179,7 @@ impl Writer<'_> {
         self.mapped(head.string("wrap", wrap).string("filter", filter), image.scale, texture, place)
     }
 
-    /// Where a texture lies.
+    /// Adds where a texture lies.
     fn mapped(&mut self, head: Directive, scale: [f64; 2], texture: &Texture, place: &str) -> Directive {
         if texture.transform.rotation_degrees != 0.0 {
             self.drop("rotation of a texture", place, "it is not turned");
@@ -208,7 +211,7 @@ impl Writer<'_> {
             Some(source) if source.embedded.is_none() && is_on_disk(&source.path) => {
                 (self.files.path_to(&source.path).to_string_lossy().replace('\\', "/"), space)
             }
-            Some(crate::scene::ImageSource { path, embedded: Some(content), .. }) => {
+            Some(ImageSource { path, embedded: Some(content), .. }) => {
                 let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
                 (self.files.add_file_once("picture", address, &ending, || content.to_vec()), space)
             }

@@ -2,7 +2,7 @@
 
 use super::Writer;
 use super::directive::Number;
-use super::material::{Made, Relief};
+use super::made::{Made, Relief};
 use crate::scene::{BlendWeight, MaterialId};
 use crate::scene_writer::weights;
 

@@ -83,11 +83,16 @@ fn light_of_surfaces_comes_back() {
     };
     let (Some(read), Some(expected)) = (emitted(&trip.read), emitted(&written)) else { panic!("no light") };
     assert!(near(read.0, expected.0) && read.1 && expected.1, "{read:?}");
-    // From one side: the other is not there.
+    // Light of one side: the other side is not there.
     let (_, one_sided) = self::trip(&light.replace("\ntwo_sided = true", ""));
     assert_eq!(one_sided.lost, ["light of one side"]);
     assert_eq!(emitted(&one_sided.read).map(|(_, two_sided)| two_sided), Some(false));
     assert!(matches!(&shown(&one_sided.read).kind, MaterialKind::Blend { weight: BlendWeight::Front, .. }));
+    // Nobody sees the other side of a ball.
+    let ball = "[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"probe\"\n";
+    let one_sided = light.replace("\ntwo_sided = true", "");
+    let ball = round_trip(&scene(&format!("[[material]]\nname = \"probe\"\n{one_sided}\n{ball}{POINT}")));
+    assert_eq!(ball.lost, ["shape `sphere`"]);
     let (other, _) = self::trip(&light.replace('7', "8"));
     assert!(!near(read.0, emitted(&other).unwrap().0), "the control");
 }
@@ -112,6 +117,11 @@ fn openings_come_back() {
     };
     assert_eq!(weight_of("{ type = \"constant\", value = 0.25 }"), BlendWeight::Constant { value: 0.25 });
     assert_eq!(weight_of("{ type = \"front\" }"), BlendWeight::Front);
+    // A lamp that is there by a share gives off that share of its light, by its alpha alone.
+    let lamp = blend("{ type = \"constant\", value = 0.25 }")
+        .replace(RED, "[[material]]\nname = \"red\"\ntype = \"emissive\"\nradiance = [0.5, 0.25, 1]\ntwo_sided = true\n");
+    let json = round_trip(&scene(&lamp)).json;
+    assert_eq!(json["materials"][0]["emissiveFactor"], serde_json::json!([0.5, 0.25, 1.0]));
     assert_ne!(weight_of("{ type = \"constant\", value = 0.5 }"), BlendWeight::Constant { value: 0.25 }, "the control");
 }
 
@@ -153,7 +163,7 @@ fn sheets_come_back() {
     assert!(up.distance(down) > 0.1, "the control");
 }
 
-/// What absorbs and scatters within a body is the same medium there.
+/// A medium that absorbs and scatters within a body comes back.
 #[test]
 fn media_come_back() {
     let tables = |medium: &str| {

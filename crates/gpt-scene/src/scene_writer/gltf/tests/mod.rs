@@ -25,7 +25,7 @@ fn scene(tables: &str) -> Scene {
     load_toml_str(&format!("{HEAD}{tables}"), "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}\n{tables}"))
 }
 
-/// What was read of what was written, and the reports of the way there and of the way back.
+/// The scene that was read again, the reports of the way there and of the way back, and the JSON between.
 struct Trip {
     read: Scene,
     lost: Vec<String>,
@@ -79,7 +79,7 @@ fn every_example_and_every_built_in_scene_is_read() {
     for (name, keys) in material_examples() {
         let text = format!("{HEAD}{}[[material]]\nname = \"probe\"\n{keys}{SQUARE}{POINT}", example_materials());
         let read = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{name}: {error}"));
-        // What is transparent is left out; then there is nothing else to read.
+        // An invisible surface is left out, and then there is nothing to read.
         if name != "pass" {
             round_trip(&read);
         }

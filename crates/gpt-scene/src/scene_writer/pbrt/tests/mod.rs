@@ -3,6 +3,7 @@
 mod parser;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 use tempfile::tempdir;
@@ -11,7 +12,7 @@ use self::parser::{Statement, check_scene, parse};
 use super::as_pbrt;
 use crate::load::file::{example_materials, light_examples, material_examples, shape_examples};
 use crate::load::{builtin_names, load, load_toml_str};
-use crate::scene::{ImportReport, Scene};
+use crate::scene::{GridsOfMedium, ImportReport, MediumGrids, Scene, Volume, VoxelGrid};
 use crate::scene_writer::WrittenScene;
 
 const HEAD: &str =
@@ -196,6 +197,22 @@ fn blends_are_mixtures_and_openings() {
     assert!(find(&statements, "Shape", "sphere").parameter("alpha").is_none(), "the control");
 }
 
+/// A lamp that is there by a share gives off that share of its light, by its alpha alone.
+#[test]
+fn light_of_openings_is_not_halved_twice() {
+    let lamp = |second: &str| {
+        let tables = format!(
+            "[[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = [5, 6, 7]\n[[material]]\nname = \"other\"\ntype = \"{second}\"\n\
+             [[material]]\nname = \"probe\"\ntype = \"blend\"\nmaterials = [\"lamp\", \"other\"]\nweight = {{ type = \"constant\", value = 0.25 }}\n{SPHERE}"
+        );
+        let statements = written(&scene(&tables)).0;
+        let alpha = find(&statements, "Shape", "sphere").numbers_of("alpha");
+        (find(&statements, "AreaLightSource", "diffuse").numbers_of("L"), alpha)
+    };
+    assert_eq!(lamp("pass"), (vec![5.0, 6.0, 7.0], vec![0.25]));
+    assert_eq!(lamp("glass"), (vec![1.25, 1.5, 1.75], Vec::new()), "the control");
+}
+
 /// The map from a shape's space to the world as pbrt reads it.
 fn map_of(statement: &Statement) -> DAffine3 {
     let columns: [f64; 16] = statement.numbers.clone().try_into().unwrap();
@@ -269,12 +286,38 @@ fn media_are_on_both_sides_of_their_surfaces() {
         .filter(|statement| statement.name == "MediumInterface")
         .map(|statement| statement.texts.join("|"))
         .collect();
-    // The camera, the light, and the sphere.
-    assert_eq!(interfaces, ["|fog", "|fog", "milk|fog"]);
+    // The camera, nothing for surfaces that bound no medium, the light, and the sphere.
+    assert_eq!(interfaces, ["|fog", "|", "|fog", "milk|fog"]);
     find(&statements, "Integrator", "volpath");
     let clear = tables.replace("medium = \"fog\"\n", "").replace("interior = \"milk\"\n", "");
     let (statements, ..) = written(&scene(&clear));
     assert!(!statements.iter().any(|statement| statement.name == "MediumInterface"), "the control");
+}
+
+/// A grid lies in the box of its voxels, which a transform puts where it is here.
+#[test]
+fn grids_lie_where_they_do_here() {
+    let tables = format!(
+        "[[medium]]\nname = \"milk\"\nabsorption = 1\nscattering = [4, 3, 2]\n\
+         [[material]]\nname = \"probe\"\ntype = \"pass\"\ninterior = \"milk\"\n{SPHERE}{POINT}"
+    );
+    let mut made = scene(&tables);
+    let values: Vec<f32> = (0..2 * 3 * 4).map(|index| index as f32).collect();
+    let grid = Arc::new(VoxelGrid::new([2, 3, 4], 1, values.clone()).unwrap());
+    let density = Volume::in_box(grid, DVec3::new(-1.0, 0.0, 1.0), DVec3::new(1.0, 6.0, 2.0));
+    let grids = GridsOfMedium { density, albedo: None, emission: None };
+    made.media[0].grids = Some(MediumGrids::new(grids).into());
+    let (statements, report, _) = written(&made);
+    assert_eq!(reported(&report), ["border of the grid of a medium"]);
+    let medium = find(&statements, "MakeNamedMedium", "milk");
+    assert_eq!(medium.numbers_of("density"), values.iter().map(|value| f64::from(*value)).collect::<Vec<_>>());
+    assert_eq!((medium.numbers_of("sigma_s"), medium.numbers_of("p1")), (vec![4.0, 3.0, 2.0], vec![2.0, 3.0, 4.0]));
+    let map = map_of(find(&statements, "Transform", ""));
+    let [low, high] = [DVec3::ZERO, DVec3::new(2.0, 3.0, 4.0)].map(|at| map.transform_point3(at));
+    assert!(low.distance(DVec3::new(-1.0, 0.0, 1.0)) < 1e-12 && high.distance(DVec3::new(1.0, 6.0, 2.0)) < 1e-12);
+    made.media[0].grids = None;
+    let (statements, ..) = written(&made);
+    assert_eq!(find(&statements, "MakeNamedMedium", "milk").text_of("type"), Some("homogeneous"), "the control");
 }
 
 #[test]

@@ -77,7 +77,8 @@ fn tokens(text: &str) -> Result<Vec<Token>, String> {
 }
 
 /// Directives with the texts and numbers behind their names, and whether parameters follow.
-const DIRECTIVES: [(&str, usize, usize, bool); 24] = [
+const DIRECTIVES: [(&str, usize, usize, bool); 25] = [
+    ("Identity", 0, 0, false),
     ("Integrator", 1, 0, true),
     ("Sampler", 1, 0, true),
     ("PixelFilter", 1, 0, true),
@@ -129,6 +130,10 @@ fn known(name: &str, kind: &str) -> Option<Vec<(&'static str, &'static str)>> {
         ("MakeNamedMedium", "homogeneous") => {
             &[&[("type", "string"), ("sigma_a", "rgb"), ("sigma_s", "rgb"), ("Le", "rgb"), ("g", "float")]]
         }
+        ("MakeNamedMedium", "uniformgrid") => &[
+            &[("type", "string"), ("sigma_a", "rgb"), ("sigma_s", "rgb"), ("Le", "rgb"), ("g", "float"), ("scale", "float")],
+            &[("p0", "point3"), ("p1", "point3"), ("nx", "integer"), ("ny", "integer"), ("nz", "integer"), ("density", "float")],
+        ],
         ("Material", "interface") => &[&[]],
         ("MakeNamedMaterial", "diffuse") => &[&BENT, &[("reflectance", "s")]],
         ("MakeNamedMaterial", "conductor") => {
@@ -275,7 +280,7 @@ fn check(statement: &Statement) -> Result<(), String> {
             (_, "spectrum") if values.len() > 1 => 2,
             _ => 1,
         };
-        let is_list = ["indices", "P", "N", "uv"].contains(&parameter.as_str()) || found == "spectrum";
+        let is_list = ["indices", "P", "N", "uv", "density"].contains(&parameter.as_str()) || found == "spectrum";
         let fits = if is_list { values.len().is_multiple_of(multiple) && !values.is_empty() } else { values.len() == multiple };
         fits.then_some(()).ok_or_else(|| format!("{parameter} of {name} has {} values", values.len()))?;
         let is_albedo = ["reflectance", "transmittance", "tex1", "tex2"].contains(&parameter.as_str());
@@ -341,6 +346,10 @@ pub fn check_scene(statements: &[Statement]) -> Result<(), String> {
         }
         if depth < 0 || in_object && name == "AreaLightSource" {
             return Err(format!("{name} where it cannot be"));
+        }
+        let voxels: f64 = ["nx", "ny", "nz"].into_iter().flat_map(|side| statement.numbers_of(side)).product();
+        if statement.parameter("density").is_some() && voxels != sizes(statement, "density", 1) as f64 {
+            return Err(format!("a grid of {voxels} voxels with another number of values"));
         }
         if name == "Shape" && texts[0] == "trianglemesh" {
             let vertices = sizes(statement, "P", 3);
