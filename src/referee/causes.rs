@@ -1,6 +1,6 @@
 //! Causes of a difference, by the pictures that they lead to.
 
-use super::judge::{Outcome, judge};
+use super::judge::{Outcome, Seeds, judge};
 use super::picture::{TruthPicture, linear_to_srgb, srgb_value_to_linear};
 
 /// A picture that a mistake leads to.
@@ -106,12 +106,12 @@ pub fn scaled_suspect(truth: &TruthPicture, pixels: &[[f32; 3]]) -> Option<Suspe
 }
 
 /// The suspects whose picture these are, up to chance; the nearest first.
-pub fn explained_by<'s>(suspects: &'s [Suspect], width: u32, pictures: &[&[[f32; 3]]], level: f64) -> Vec<&'s str> {
+pub fn explained_by<'s>(suspects: &'s [Suspect], width: u32, pictures: &[&[[f32; 3]]], seeds: Seeds, level: f64) -> Vec<&'s str> {
     let distance = |suspect: &Suspect| -> f64 {
         let values = pictures.iter().flat_map(|pixels| suspect.picture.mean.iter().flatten().zip(pixels.iter().flatten()));
         values.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum()
     };
-    let agrees = |suspect: &&Suspect| judge(&suspect.picture, width, pictures, level).outcome == Outcome::Agrees;
+    let agrees = |suspect: &&Suspect| judge(&suspect.picture, width, pictures, seeds, level).outcome == Outcome::Agrees;
     let mut found: Vec<_> = suspects.iter().filter(agrees).map(|suspect| (distance(suspect), suspect.cause.as_str())).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().map(|(_, cause)| cause).collect()
@@ -133,12 +133,12 @@ mod tests {
         let truth = truth();
         let suspects = general_suspects(&truth);
         for suspect in &suspects {
-            let judged = judge(&truth, 32, &[&suspect.picture.mean], 0.01);
+            let judged = judge(&truth, 32, &[&suspect.picture.mean], Seeds::Unknown, 0.01);
             assert_eq!(judged.outcome, Outcome::Differs, "{}", suspect.cause);
-            assert_eq!(explained_by(&suspects, 32, &[&suspect.picture.mean], 0.01), [suspect.cause.as_str()]);
+            assert_eq!(explained_by(&suspects, 32, &[&suspect.picture.mean], Seeds::Unknown, 0.01), [suspect.cause.as_str()]);
         }
         // The control: the truth is none of them.
-        assert_eq!(explained_by(&suspects, 32, &[&truth.mean], 0.01), Vec::<&str>::new());
+        assert_eq!(explained_by(&suspects, 32, &[&truth.mean], Seeds::Unknown, 0.01), Vec::<&str>::new());
     }
 
     #[test]

@@ -68,8 +68,17 @@ impl Difference {
     }
 }
 
-/// Judges pictures, row by row from the top, of this width, which have random numbers of their own. `level`: the probability of a false alarm of this test.
-pub fn judge(truth: &TruthPicture, width: u32, pictures: &[&[[f32; 3]]], level: f64) -> Judgement {
+/// How the pictures of a test came to their random numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seeds {
+    /// Each picture has its own: pictures that are equal have no noise.
+    Known,
+    /// Pictures that are equal may have the same.
+    Unknown,
+}
+
+/// Judges pictures, row by row from the top, of this width. `level`: the probability of a false alarm of this test.
+pub fn judge(truth: &TruthPicture, width: u32, pictures: &[&[[f32; 3]]], seeds: Seeds, level: f64) -> Judgement {
     let unusable =
         |reason: String| Judgement { outcome: Outcome::Unusable(reason), finds: None, difference: None, compared: None };
     if pictures.is_empty() {
@@ -101,7 +110,7 @@ pub fn judge(truth: &TruthPicture, width: u32, pictures: &[&[[f32; 3]]], level: 
         Ok(compared) => compared,
         Err(error) => return unusable(error.to_string()),
     };
-    let difference = clearest(&compared).or_else(|| of_single_pixels(truth, pictures, &compared, family_level));
+    let difference = clearest(&compared).or_else(|| of_single_pixels(truth, pictures, seeds, &compared, family_level));
     let outcome = if difference.is_some() { Outcome::Differs } else { Outcome::Agrees };
     Judgement { outcome, finds: smallest_found(&compared), difference, compared: Some(compared) }
 }
@@ -139,15 +148,18 @@ fn noise_of_tiles(truth: &TruthPicture, mean: &[[f32; 3]]) -> Vec<[f32; 3]> {
 
 /// Faults that change from pixel to pixel and leave means alone: the deviations of two pictures with random numbers of their own have products whose mean
 /// is 0 if there is noise alone, and the mean square of the fault otherwise. The products over all pixels are the sample of a one-sided t-test; a few bright
-/// samples are in one picture only and do no harm. None of one picture, and of pictures that are equal.
+/// samples are in one picture only and do no harm. None of one picture, and of pictures
+/// that may be equal because they have the same random numbers.
 fn of_single_pixels(
     truth: &TruthPicture,
     pictures: &[&[[f32; 3]]],
+    seeds: Seeds,
     compared: &ImageComparison,
     level: f64,
 ) -> Option<Difference> {
     let (first, second) = pictures.split_at(pictures.len() / 2);
-    if first.is_empty() || pictures.iter().all(|picture| picture == &pictures[0]) {
+    let are_equal = pictures.iter().all(|picture| picture == &pictures[0]);
+    if first.is_empty() || (are_equal && seeds == Seeds::Unknown) {
         return None;
     }
     let [first, second] = [first, second].map(mean_of);
@@ -252,13 +264,13 @@ mod tests {
         for count in [1, 2] {
             let right = two(&truth, 1.0, &mut random);
             let right: Vec<&[_]> = right[..count].iter().map(Vec::as_slice).collect();
-            let judged = judge(&truth, 64, &right, 1e-3);
+            let judged = judge(&truth, 64, &right, Seeds::Unknown, 1e-3);
             assert_eq!(judged.outcome, Outcome::Agrees, "{judged:?}");
             let found = judged.finds.expect("it is not black");
             assert!(found < 0.01, "{found}");
             let bright = two(&truth, 1.01, &mut random);
             let bright: Vec<&[_]> = bright[..count].iter().map(Vec::as_slice).collect();
-            let difference = judge(&truth, 64, &bright, 1e-3).difference.expect("one percent is found");
+            let difference = judge(&truth, 64, &bright, Seeds::Unknown, 1e-3).difference.expect("one percent is found");
             let share = difference.at_least_share().expect("it is not black");
             assert!(share > 0.0 && share < 0.03, "{difference:?}");
         }
@@ -271,7 +283,7 @@ mod tests {
             let alarms = (0..400).filter(|_| {
                 let pictures = two(&truth, 1.0, &mut random);
                 let pictures: Vec<&[_]> = pictures[..count].iter().map(Vec::as_slice).collect();
-                judge(&truth, 64, &pictures, 0.05).outcome != Outcome::Agrees
+                judge(&truth, 64, &pictures, Seeds::Unknown, 0.05).outcome != Outcome::Agrees
             });
             let alarms = alarms.count();
             // Binomial(400, 0.05) is above 37 with probability 1e-4. The margin makes alarms rarer still.
@@ -289,16 +301,21 @@ mod tests {
             (truth.mean[index], wrong.mean[index]) = ([bright(index); 3], [bright(index + 1); 3]);
         }
         let pictures = two(&wrong, 1.0, &mut random);
-        assert_eq!(judge(&truth, 64, &[&pictures[0]], 1e-6).outcome, Outcome::Agrees);
-        let difference = judge(&truth, 64, &[&pictures[0], &pictures[1]], 1e-6).difference.expect("it differs");
+        assert_eq!(judge(&truth, 64, &[&pictures[0]], Seeds::Unknown, 1e-6).outcome, Outcome::Agrees);
+        let difference = judge(&truth, 64, &[&pictures[0], &pictures[1]], Seeds::Unknown, 1e-6).difference.expect("it differs");
         // A quarter of the pixels is off by 1.
         assert!(
             difference.of == DifferenceOf::Pixels && difference.at_least > 0.4 && difference.at_least < 0.5,
             "{difference:?}"
         );
+        // Pictures without noise, of which two are equal.
+        let exact = [wrong.mean.as_slice(); 2];
+        assert_eq!(judge(&truth, 64, &exact, Seeds::Unknown, 1e-6).outcome, Outcome::Agrees);
+        assert_eq!(judge(&truth, 64, &exact, Seeds::Known, 1e-6).outcome, Outcome::Differs);
+        assert_eq!(judge(&truth, 64, &[truth.mean.as_slice(); 2], Seeds::Known, 1e-6).outcome, Outcome::Agrees);
         // The control: the right picture.
         let pictures = two(&truth, 1.0, &mut random);
-        assert_eq!(judge(&truth, 64, &[&pictures[0], &pictures[1]], 1e-3).outcome, Outcome::Agrees);
+        assert_eq!(judge(&truth, 64, &[&pictures[0], &pictures[1]], Seeds::Unknown, 1e-3).outcome, Outcome::Agrees);
     }
 
     #[test]
@@ -306,18 +323,20 @@ mod tests {
         let truth = truth();
         let mut pixels = truth.mean.clone();
         pixels[7][1] = f32::NAN;
-        assert!(matches!(judge(&truth, 64, &[&pixels], 0.01).outcome, Outcome::Unusable(reason) if reason.contains("finite")));
         assert!(
-            matches!(judge(&truth, 32, &[&truth.mean], 0.01).outcome, Outcome::Unusable(reason) if reason.contains("32×128"))
+            matches!(judge(&truth, 64, &[&pixels], Seeds::Unknown, 0.01).outcome, Outcome::Unusable(reason) if reason.contains("finite"))
         );
-        assert!(matches!(judge(&truth, 0, &[&[]], 0.01).outcome, Outcome::Unusable(_)));
-        assert!(matches!(judge(&truth, 64, &[], 0.01).outcome, Outcome::Unusable(_)));
+        assert!(
+            matches!(judge(&truth, 32, &[&truth.mean], Seeds::Unknown, 0.01).outcome, Outcome::Unusable(reason) if reason.contains("32×128"))
+        );
+        assert!(matches!(judge(&truth, 0, &[&[]], Seeds::Unknown, 0.01).outcome, Outcome::Unusable(_)));
+        assert!(matches!(judge(&truth, 64, &[], Seeds::Unknown, 0.01).outcome, Outcome::Unusable(_)));
     }
 
     #[test]
     fn an_exact_picture_agrees_and_finds_the_margin() {
         let truth = truth();
-        let judged = judge(&truth, 64, &[&truth.mean, &truth.mean], 0.01);
+        let judged = judge(&truth, 64, &[&truth.mean, &truth.mean], Seeds::Unknown, 0.01);
         assert_eq!((judged.outcome, judged.finds), (Outcome::Agrees, Some(MARGIN)));
     }
 }

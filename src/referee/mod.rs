@@ -10,7 +10,7 @@ pub mod suite;
 pub mod test;
 pub mod truth;
 
-pub use judge::{Difference, DifferenceOf, Judgement, Outcome, judge};
+pub use judge::{Difference, DifferenceOf, Judgement, Outcome, Seeds, judge};
 pub use picture::TruthPicture;
 pub use suite::all_tests;
 pub use test::{Test, Variant};

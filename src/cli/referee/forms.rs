@@ -29,9 +29,9 @@ impl SceneForm {
         }
     }
 
-    /// Settings of the render that this form has no place for: a runner is told them, or the test asks nothing of them.
-    fn is_setting(self, what: &str) -> bool {
-        self != Self::Toml && (what.starts_with("film") || what.starts_with("render") || what.starts_with("size"))
+    /// Losses that are none to a test: in glTF the back of a one-sided light is not there, so that it gives off nothing, as it should.
+    fn is_harmless(self, what: &str) -> bool {
+        self == Self::Gltf && what == "light of one side"
     }
 
     /// Writes a test to a folder, with the files that it names.
@@ -59,7 +59,7 @@ impl SceneForm {
 
     fn sentences(self, report: &ImportReport) -> Vec<String> {
         let items = report.dropped.iter().chain(&report.approximated);
-        items.filter(|item| !self.is_setting(&item.what)).map(|item| format!("{}: {}", item.what, item.instead)).collect()
+        items.filter(|item| !self.is_harmless(&item.what)).map(|item| format!("{}: {}", item.what, item.instead)).collect()
     }
 }
 

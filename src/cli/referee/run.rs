@@ -8,7 +8,7 @@ use gpt::compare::sidak;
 use gpt::output::{AtomicFile, Image};
 use gpt::referee::causes::{Suspect, explained_by, general_suspects, scaled_suspect};
 use gpt::referee::test::VariantPicture;
-use gpt::referee::{Test, TruthPicture, judge, replay, suite};
+use gpt::referee::{Seeds, Test, TruthPicture, judge, replay, suite};
 use serde::Serialize;
 
 use super::arguments::RunArguments;
@@ -55,28 +55,35 @@ pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         .map_or_else(|| arguments.name.clone().unwrap_or_else(|| "pictures".to_owned()), |runner| runner.name.clone());
     let spp = if arguments.quick { arguments.spp.min(64) } else { arguments.spp };
     let level = sidak(arguments.false_alarms, tests.len());
-    let mut reports = Vec::with_capacity(tests.len());
+    let mut rendered = Vec::with_capacity(tests.len());
     for test in &tests {
-        let start = Instant::now();
-        let mut report = TestReport::new(test);
-        let place = folder.join(test.file_name());
-        match pictures(test, (arguments, runner.as_ref()), spp, &place)? {
-            Rendered::Pictures(pictures) => judge_pictures(test, &pictures, level, &mut report)?,
-            Rendered::NotSupported(reason) => (report.verdict, report.reason) = (Verdict::NotSupported, Some(reason)),
-            Rendered::Failed(reason) => report.reason = Some(reason),
+        if !arguments.quiet {
+            terminal::note(&format!("{} …", test.name));
         }
+        let start = Instant::now();
+        let pictures = pictures(test, (arguments, runner.as_ref()), spp, &folder.join(test.file_name()))?;
         if interrupt::requested() {
             return Err(Failure::Interrupted);
+        }
+        rendered.push((pictures, start.elapsed().as_secs_f64()));
+    }
+    // Where seeds count anywhere, pictures that are equal have no noise.
+    let seeds = if rendered.iter().any(|(rendered, _)| rendered.differ()) { Seeds::Known } else { Seeds::Unknown };
+    let mut reports = Vec::with_capacity(tests.len());
+    for (test, (rendered, seconds)) in tests.iter().zip(rendered) {
+        let mut report = TestReport::new(test);
+        match rendered {
+            Rendered::Pictures(pictures) => judge_pictures(test, &pictures, (seeds, level), &mut report)?,
+            Rendered::NotSupported(reason) => (report.verdict, report.reason) = (Verdict::NotSupported, Some(reason)),
+            Rendered::Failed(reason) => report.reason = Some(reason),
         }
         if let Some(reason) = exceptions.get(test.name).filter(|_| report.verdict.is_wrong()) {
             report.reason = Some(reason.clone());
             report.verdict = Verdict::Excepted;
         }
-        report.seconds = start.elapsed().as_secs_f64();
+        report.seconds = seconds;
         if !arguments.json {
             terminal::answer(&format!("{}\n", report.line()))?;
-        } else if !arguments.quiet {
-            terminal::note(&report.line());
         }
         reports.push(report);
     }
@@ -143,6 +150,13 @@ enum Rendered {
     Failed(String),
 }
 
+impl Rendered {
+    /// Two pictures of one test are not the same.
+    fn differ(&self) -> bool {
+        matches!(self, Self::Pictures(pictures) if pictures.iter().any(|picture| picture.pixels != pictures[0].pixels))
+    }
+}
+
 fn pictures(
     test: &Test,
     (arguments, runner): (&RunArguments, Option<&Runner>),
@@ -187,7 +201,12 @@ fn given(test: &Test, folder: &Path) -> Rendered {
     if found.is_empty() { Rendered::NotSupported("there is no picture of it".to_owned()) } else { Rendered::Pictures(found) }
 }
 
-fn judge_pictures(test: &Test, pictures: &[Picture], level: f64, report: &mut TestReport) -> Result<(), Failure> {
+fn judge_pictures(
+    test: &Test,
+    pictures: &[Picture],
+    (seeds, level): (Seeds, f64),
+    report: &mut TestReport,
+) -> Result<(), Failure> {
     let truth = test.true_picture().map_err(Failure::Other)?;
     let width = pictures[0].width;
     if let Some(other) =
@@ -197,10 +216,10 @@ fn judge_pictures(test: &Test, pictures: &[Picture], level: f64, report: &mut Te
         return Ok(());
     }
     let views: Vec<&[[f32; 3]]> = pictures.iter().map(|picture| picture.pixels.as_slice()).collect();
-    let judgement = judge(&truth, width, &views, level);
+    let judgement = judge(&truth, width, &views, seeds, level);
     report.judged(&judgement);
     if report.verdict == Verdict::Differs {
-        report.looks_like = causes(test, &truth, width, &views, level)?;
+        report.looks_like = causes(test, &truth, (width, &views), (seeds, level))?;
     }
     if let Some(tiles) = judgement.compared {
         let height = truth.height;
@@ -211,7 +230,12 @@ fn judge_pictures(test: &Test, pictures: &[Picture], level: f64, report: &mut Te
 }
 
 /// Mistakes of the test first, then those that any test may show.
-fn causes(test: &Test, truth: &TruthPicture, width: u32, views: &[&[[f32; 3]]], level: f64) -> Result<Vec<String>, Failure> {
+fn causes(
+    test: &Test,
+    truth: &TruthPicture,
+    (width, views): (u32, &[&[[f32; 3]]]),
+    (seeds, level): (Seeds, f64),
+) -> Result<Vec<String>, Failure> {
     let mut suspects = Vec::new();
     for variant in &test.variants {
         let picture = match &variant.picture {
@@ -222,10 +246,10 @@ fn causes(test: &Test, truth: &TruthPicture, width: u32, views: &[&[[f32; 3]]], 
         suspects.push(Suspect { cause: variant.cause.to_owned(), picture });
     }
     suspects.extend(general_suspects(truth));
-    let found: Vec<String> = explained_by(&suspects, width, views, level).into_iter().map(str::to_owned).collect();
+    let found: Vec<String> = explained_by(&suspects, width, views, seeds, level).into_iter().map(str::to_owned).collect();
     if !found.is_empty() {
         return Ok(found);
     }
     let scaled: Vec<Suspect> = scaled_suspect(truth, views[0]).into_iter().collect();
-    Ok(explained_by(&scaled, width, views, level).into_iter().map(str::to_owned).collect())
+    Ok(explained_by(&scaled, width, views, seeds, level).into_iter().map(str::to_owned).collect())
 }

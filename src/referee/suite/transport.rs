@@ -104,12 +104,12 @@ fn bounces() -> Vec<Test> {
     let from_wall = move |s, t| 0.8 * FRAC_1_PI * formulas::polygon(place(s, t), UP, &wall).abs();
     let white = material("white", "type = \"diffuse\"\nreflectance = 0.8");
     let along = light("directional", &format!("direction = [-1, 0, 0]\nirradiance = {COLOR:?}"));
-    let lamp = [[0.9, -0.5, 1.0], [0.9, 0.5, 1.0], [1.7, 0.5, 1.0], [1.7, -0.5, 1.0]];
-    let image = lamp.map(|[x, y, z]| [-3.0 - x, y, z]);
+    let lamp = [[0.9, -1.2, 2.0], [0.9, 1.2, 2.0], [2.5, 1.2, 2.0], [2.5, -1.2, 2.0]];
+    let image = lamp.map(|[x, y, z]| [-2.1 - x, y, z]);
     let direct = move |s, t| formulas::polygon(place(s, t), UP, &lamp).abs();
     let mirrored = move |s, t| formulas::polygon(place(s, t), UP, &image).abs();
     let mirror = material("mirror", "type = \"mirror\"");
-    let big = shape("rectangle", "mirror", "corner = [-1.5, -60, 0]\nedge_u = [0, 120, 0]\nedge_v = [0, 0, 60]");
+    let big = shape("rectangle", "mirror", "corner = [-1.05, -60, 0]\nedge_u = [0, 120, 0]\nedge_v = [0, 0, 60]");
     vec![
         Test::of_formula(
             [

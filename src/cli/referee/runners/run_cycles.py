@@ -10,8 +10,7 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=scene_file, export_import_convert_lighting_mode="COMPAT")
 scene = bpy.context.scene
 scene.camera = next(thing for thing in scene.objects if thing.type == "CAMERA")
-scene.world = bpy.data.worlds.new("black")
-scene.world.color = (0, 0, 0)
+scene.world = None
 scene.render.engine = "CYCLES"
 scene.cycles.samples, scene.cycles.seed = int(spp), int(seed)
 scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
