@@ -13,6 +13,8 @@ use crate::compare::{
 const TILE: u32 = 8;
 /// Share of a value that renderers may be off by rounding, in half floats for instance, and by approximations that nobody sees.
 pub const MARGIN: f64 = 1e-3;
+/// Rounding of a pixel beside bright ones, as a share of the picture's mean.
+const ROUNDING: f64 = 1e-6;
 /// Probability with which a stated change is found.
 pub const POWER: f64 = 0.9;
 
@@ -128,6 +130,10 @@ fn mean_of(pictures: &[&[[f32; 3]]]) -> Vec<[f32; 3]> {
 fn noise_of_tiles(truth: &TruthPicture, mean: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let (width, height) = (truth.width as usize, truth.height as usize);
     let tile = TILE as usize;
+    let floor: [f64; 3] = std::array::from_fn(|channel| {
+        let sum: f64 = truth.mean.iter().map(|pixel| f64::from(pixel[channel]).abs()).sum();
+        (ROUNDING * sum / truth.mean.len() as f64).powi(2)
+    });
     let mut variances = vec![[0.0; 3]; mean.len()];
     for top in (0..height).step_by(tile) {
         for left in (0..width).step_by(tile) {
@@ -138,7 +144,8 @@ fn noise_of_tiles(truth: &TruthPicture, mean: &[[f32; 3]]) -> Vec<[f32; 3]> {
                 let deviation = |pixel: usize| f64::from(mean[pixel][channel]) - f64::from(truth.mean[pixel][channel]);
                 let variance = members().map(deviation).collect::<Moments>().variance();
                 for pixel in members() {
-                    variances[pixel][channel] = if variance.is_finite() { variance as f32 } else { 0.0 };
+                    let variance = if variance.is_finite() { variance } else { 0.0 };
+                    variances[pixel][channel] = variance.max(floor[channel]) as f32;
                 }
             }
         }

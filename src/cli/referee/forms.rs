@@ -10,6 +10,9 @@ use gpt::scene_writer;
 use super::arguments::SceneForm;
 use crate::cli::exit::Failure;
 
+/// Limits of depth from here on change no picture of the suite.
+const DEEP: u32 = 64;
+
 /// A scene on disk.
 pub struct WrittenForm {
     pub path: PathBuf,
@@ -52,7 +55,11 @@ impl SceneForm {
             Self::Gltf => scene_writer::as_gltf(&scene, test.name, &path),
             Self::Pbrt => scene_writer::as_pbrt(&scene, test.name, &path),
         };
-        let left_out = self.sentences(&written.report);
+        let mut left_out = self.sentences(&written.report);
+        let depth = scene.render.max_depth;
+        if self == Self::Gltf && (1..DEEP).contains(&depth) {
+            left_out.push(format!("paths of at most {depth} edges: glTF has no limit of depth"));
+        }
         written.write(&path, &FileLog::default())?;
         Ok(WrittenForm { path, left_out })
     }
