@@ -50,6 +50,7 @@ mod verified_drivers;
 mod verify;
 mod view;
 mod watch;
+mod xml;
 
 use std::process::ExitCode;
 use std::thread::{self, available_parallelism};

@@ -23,11 +23,11 @@ pub struct Formula {
 /// How a function behaves within a pixel, by which its mean is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FormulaShape {
-    /// It has derivatives.
+    /// Derivatives exist.
     Smooth,
     /// Its derivatives jump.
     Kinks,
-    /// It jumps.
+    /// The function itself jumps.
     Edges,
 }
 

@@ -71,7 +71,7 @@ pub enum KnownRenderer {
     Cycles,
 }
 
-/// What a scene is written as.
+/// The form in which a scene is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum SceneForm {
     /// A scene file of this program
@@ -99,7 +99,7 @@ pub struct RunArguments {
     /// Pictures that were made before, NAME.exr and, with other random numbers, NAME-2.exr in this folder
     #[arg(long, value_name = "DIR", help_heading = RENDERER)]
     pub pictures: Option<PathBuf>,
-    /// What {scene} is written as
+    /// The form in which {scene} is written
     #[arg(long, value_name = "FORM", default_value = "toml", help_heading = RENDERER)]
     pub form: SceneForm,
     /// The renderer's name in reports [default: that of --renderer, or the command's first word]

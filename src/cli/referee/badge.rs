@@ -1,7 +1,7 @@
 //! A badge: how many tests a renderer agrees with.
 
 use super::report::{TestReport, Verdict};
-use crate::cli::test::escaped_xml;
+use crate::cli::xml::escaped;
 
 /// Width of a character of the badge's font, about.
 const CHARACTER: usize = 7;
@@ -27,8 +27,8 @@ pub fn svg(reports: &[TestReport]) -> String {
          <text x=\"{}\" y=\"14\">{}</text>\n<text x=\"{}\" y=\"14\">{}</text>\n</g>\n</svg>\n",
         widths[0] - 3,
         widths[0] / 2,
-        escaped_xml(&left),
+        escaped(&left),
         widths[0] + widths[1] / 2,
-        escaped_xml(&right)
+        escaped(&right)
     )
 }

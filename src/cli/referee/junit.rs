@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::report::{TestReport, Verdict};
-use crate::cli::test::escaped_xml;
+use crate::cli::xml::escaped;
 
 /// The outcome of all tests of a renderer.
 pub fn xml(renderer: &str, reports: &[TestReport], seconds: f64) -> String {
@@ -15,7 +15,7 @@ pub fn xml(renderer: &str, reports: &[TestReport], seconds: f64) -> String {
         count(Verdict::Failed),
         count(Verdict::NotSupported) + count(Verdict::Excepted)
     );
-    let suite = escaped_xml(renderer);
+    let suite = escaped(renderer);
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let _ = writeln!(xml, "<testsuites name=\"gpt referee\" {counts}>");
     let _ = writeln!(xml, "  <testsuite name=\"{suite}\" {counts}>");
@@ -30,12 +30,7 @@ pub fn xml(renderer: &str, reports: &[TestReport], seconds: f64) -> String {
         };
         if let Some(element) = element {
             let text = format!("{}\n{}\nDecides: {}", report.detail(), report.about, report.decides);
-            let _ = writeln!(
-                xml,
-                "      <{element} message=\"{}\">{}</{element}>",
-                escaped_xml(&report.detail()),
-                escaped_xml(&text)
-            );
+            let _ = writeln!(xml, "      <{element} message=\"{}\">{}</{element}>", escaped(&report.detail()), escaped(&text));
         }
         xml.push_str("    </testcase>\n");
     }

@@ -1,4 +1,4 @@
-//! What is said of each test.
+//! The report of each test.
 
 use gpt::compare::ImageComparison;
 use gpt::output::Image;
@@ -15,7 +15,7 @@ pub enum Verdict {
     Failed,
     /// The form of the scene cannot say what is tested.
     NotSupported,
-    /// It differs or failed, as is known and meant.
+    /// A difference or a failure that is known and meant.
     Excepted,
 }
 
@@ -134,7 +134,7 @@ impl TestReport {
         line
     }
 
-    /// What there is to say beyond the verdict.
+    /// The rest of the line, beyond the verdict.
     pub fn detail(&self) -> String {
         let mut parts = Vec::new();
         match (self.verdict, self.finds) {

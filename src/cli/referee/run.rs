@@ -67,7 +67,7 @@ pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         }
         rendered.push((pictures, start.elapsed().as_secs_f64()));
     }
-    // Where seeds count anywhere, pictures that are equal have no noise.
+    // If seeds count in any test, pictures that are equal have no noise.
     let seeds = if rendered.iter().any(|(rendered, _)| rendered.differ()) { Seeds::Known } else { Seeds::Unknown };
     let mut reports = Vec::with_capacity(tests.len());
     for (test, (rendered, seconds)) in tests.iter().zip(rendered) {
@@ -143,7 +143,7 @@ fn exceptions(path: Option<&Path>, tests: &[Test]) -> Result<BTreeMap<String, St
     }
 }
 
-/// What a renderer made of a test.
+/// The outcome of rendering a test.
 enum Rendered {
     Pictures(Vec<Picture>),
     NotSupported(String),

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::report::{SceneReport, TestOutcome};
+use crate::cli::xml::escaped;
 
 /// The outcome of all scenes.
 pub fn xml(folder: &Path, reports: &[SceneReport], seconds: f64) -> String {
@@ -56,31 +57,4 @@ fn details(report: &SceneReport) -> String {
     lines.extend(report.message.clone());
     lines.extend(report.commands.iter().cloned());
     lines.join("\n")
-}
-
-/// Text that may stand anywhere in XML; what may not is a replacement character.
-pub fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\n' | '\t' => escaped.push(character),
-            control if control.is_control() || matches!(control, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
-            other => escaped.push(other),
-        }
-    }
-    escaped
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_cannot_break_the_file() {
-        assert_eq!(escaped("a<b & \"c\"\u{1}>"), "a&lt;b &amp; &quot;c&quot;\u{fffd}&gt;");
-    }
 }

@@ -17,7 +17,6 @@ use super::exit::{Exit, Failure};
 use super::test_arguments::TestArguments;
 use super::typed::Typed;
 use super::{interrupt, outputs, terminal};
-pub use junit::escaped as escaped_xml;
 use report::{SceneReport, TestOutcome};
 
 /// No report replaces another, a scene, or one of the pictures.

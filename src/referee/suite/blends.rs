@@ -19,7 +19,7 @@ const PARTS: [(&str, &str); 5] = [
     ("metal", "type = \"conductor\"\nreflectance = [0.9, 0.6, 0.3]\nalpha = 0.4"),
 ];
 
-/// Those of the parts that are named, and a blend of two materials as `m`.
+/// The parts that are named, and a blend of two materials as `m`.
 fn blend(first: &str, second: &str, weight: &str) -> String {
     let named =
         |name: &str| [first, second].contains(&name) || ([first, second].contains(&"inner") && ["mirror", "red"].contains(&name));
