@@ -53,7 +53,7 @@ impl Exit {
             Self::Device => "there is no usable device, or the scene does not fit it",
             Self::DeviceLost => "the device was lost, or memory ran out midway; what was rendered is saved as far as it could be",
             Self::NonFinite => "samples were not finite, with --strict",
-            Self::Difference => "compare, test or verify found a difference",
+            Self::Difference => "compare, referee, test or verify found a difference",
             Self::Interrupted => "interrupted; what was rendered is saved",
         }
     }
