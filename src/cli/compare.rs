@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::arguments::CompareArguments;
 use super::bench::command;
 use super::denoise::{BIAS_KEY, DENOISER_KEY};
-use super::difference_page::{self, PicturePair, Section};
+use super::difference_page::{self, PicturePair, Section, Tone};
 use super::exit::{Exit, Failure};
 use super::{outputs, terminal};
 
@@ -78,7 +78,7 @@ fn page(
     let section = Section {
         title: format!("{} and {}", arguments.picture.display(), arguments.reference.display()),
         verdict: if equal { "equal" } else { "different" }.to_owned(),
-        is_red: !equal,
+        tone: Tone::of(!equal),
         facts: metrics.chain([format!("ꟻLIP {:.5}", map.mean())]).collect(),
         findings: tiles.rejected().map(|finding| (finding.region, finding.to_string())).collect(),
         commands: vec![command()],

@@ -7,7 +7,7 @@ mod section;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-pub use section::{PicturePair, Section};
+pub use section::{PicturePair, Section, Tone};
 
 /// Pixels of all pictures of a page together, of which there are two each; beyond that, pictures are left out.
 const MOST_PIXELS: u64 = 24 << 20;
@@ -51,7 +51,12 @@ fn contents(sections: &[Section]) -> Markup {
 }
 
 fn verdict(section: &Section) -> Markup {
-    html! { span class=(if section.is_red { "red" } else { "green" }) { (section.verdict) } }
+    let class = match section.tone {
+        Tone::Green => "green",
+        Tone::Red => "red",
+        Tone::Grey => "grey",
+    };
+    html! { span class=(class) { (section.verdict) } }
 }
 
 fn of_section(number: usize, section: &Section, pixels_left: &mut u64) -> Markup {

@@ -8,7 +8,7 @@ use gpt::output::Image;
 pub struct Section<'a> {
     pub title: String,
     pub verdict: String,
-    pub is_red: bool,
+    pub tone: Tone,
     pub facts: Vec<String>,
     /// Regions that differ, each with a sentence.
     pub findings: Vec<(Region, String)>,
@@ -16,6 +16,22 @@ pub struct Section<'a> {
     pub commands: Vec<String>,
     /// None where there are no two pictures.
     pub shown: Option<PicturePair<'a>>,
+}
+
+/// The colour of a verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tone {
+    Green,
+    Red,
+    /// Nothing was judged.
+    Grey,
+}
+
+impl Tone {
+    /// Red where something is wrong, green elsewhere.
+    pub fn of(is_wrong: bool) -> Self {
+        if is_wrong { Self::Red } else { Self::Green }
+    }
 }
 
 /// Two pictures of one size.

@@ -8,7 +8,7 @@ fn section<'a>(images: &'a [Image; 2], tiles: &'a ImageComparison, map: &'a Flip
     Section {
         title: "a </script> scene".to_owned(),
         verdict: "differs".to_owned(),
-        is_red: true,
+        tone: Tone::Red,
         facts: vec!["a fact".to_owned()],
         findings: vec![(Region { x: 1, y: 2, width: 3, height: 4 }, "a finding".to_owned())],
         commands: vec!["gpt test <here>".to_owned()],

@@ -4,7 +4,7 @@ use gpt::compare::flip::{FlipMap, PIXELS_PER_DEGREE, flip};
 
 use super::report::{TestReport, Verdict, counts};
 use crate::cli::bench::command;
-use crate::cli::difference_page::{self, PicturePair, Section};
+use crate::cli::difference_page::{self, PicturePair, Section, Tone};
 
 /// Tests that differ first.
 pub fn page(renderer: &str, reports: &[TestReport], false_alarms: f64) -> String {
@@ -39,7 +39,7 @@ fn section<'a>(report: &'a TestReport, map: Option<&'a FlipMap>) -> Section<'a> 
     Section {
         title: report.name.to_owned(),
         verdict: report.verdict.words().to_owned(),
-        is_red: report.verdict.is_wrong(),
+        tone: if report.verdict == Verdict::NotSupported { Tone::Grey } else { Tone::of(report.verdict.is_wrong()) },
         facts,
         findings,
         commands: Vec::new(),

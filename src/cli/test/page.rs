@@ -2,7 +2,7 @@
 
 use super::report::{SceneReport, TestOutcome};
 use crate::cli::bench::command;
-use crate::cli::difference_page::{self, PicturePair, Section};
+use crate::cli::difference_page::{self, PicturePair, Section, Tone};
 use crate::cli::test_arguments::TestArguments;
 
 /// Scenes that differ first.
@@ -40,7 +40,7 @@ fn section(report: &SceneReport) -> Section<'_> {
     Section {
         title: report.scene.clone(),
         verdict: verdict.to_owned(),
-        is_red,
+        tone: Tone::of(is_red),
         facts,
         findings: report.differences.iter().map(|difference| (difference.region, difference.sentence())).collect(),
         commands: report.commands.clone(),
