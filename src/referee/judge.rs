@@ -344,6 +344,7 @@ mod tests {
     fn an_exact_picture_agrees_and_finds_the_margin() {
         let truth = truth();
         let judged = judge(&truth, 64, &[&truth.mean, &truth.mean], Seeds::Unknown, 0.01);
-        assert_eq!((judged.outcome, judged.finds), (Outcome::Agrees, Some(MARGIN)));
+        let found = judged.finds.expect("it is not black");
+        assert!(judged.outcome == Outcome::Agrees && (MARGIN..1.01 * MARGIN).contains(&found), "{found}");
     }
 }

@@ -29,7 +29,8 @@ pub fn polygon(p: Vector, n: Vector, corners: &[Vector]) -> f64 {
             sum += sine.atan2(dot(a, b)) * dot(n, normal) / sine;
         }
     }
-    0.5 * sum
+    // Corners that run counter-clockwise seen from p have products that point away from there.
+    -0.5 * sum
 }
 
 /// A sphere that is wholly above the horizon: π·sin²·cos of its angular radius and of its middle's angle with the normal.
