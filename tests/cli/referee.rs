@@ -64,7 +64,7 @@ fn exports_are_equal_and_whole() {
     let folder = work.path("suite").display().to_string();
     let xml = fs::read_to_string(work.path("suite/textures/srgb/scene.xml")).expect("a scene");
     assert!(xml.contains("codes.png") && !xml.contains(&folder), "{xml}");
-    // What lies there stays.
+    // A folder with files in it is left alone.
     let (status, _, errors) = said(&work, "referee export suite lights/point");
     assert!(status == 2 && errors.contains("not empty"), "{errors}");
 }

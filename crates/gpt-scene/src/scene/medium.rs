@@ -94,6 +94,17 @@ impl Phase {
         self.0.iter().map(|lobe| lobe.weight * lobe.kind.evenness()).sum()
     }
 
+    /// Mean cosine between the directions before and after light is scattered.
+    pub fn mean_cosine(&self) -> f64 {
+        let of_kind = |kind: PhaseKind| if let PhaseKind::HenyeyGreenstein { g } = kind { g } else { 0.0 };
+        self.0.iter().map(|lobe| lobe.weight * of_kind(lobe.kind)).sum()
+    }
+
+    /// True of one lobe of Henyey and Greenstein's.
+    pub fn is_henyey_greenstein(&self) -> bool {
+        matches!(self.0.as_slice(), [PhaseLobe { kind: PhaseKind::HenyeyGreenstein { .. }, .. }])
+    }
+
     /// A phase function of one lobe.
     pub fn of(kind: PhaseKind) -> Self {
         Self(vec![PhaseLobe { weight: 1.0, kind }])

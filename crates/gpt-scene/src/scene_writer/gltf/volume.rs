@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::Writer;
 use crate::load::single_scattering_albedo;
-use crate::scene::{Attenuation, ColorInput, Dispersion, MediumId, Phase, PhaseKind, Principled};
+use crate::scene::{Attenuation, ColorInput, Dispersion, MediumId, Phase, Principled};
 use crate::spectrum::Spectrum;
 
 /// Fraunhofer's lines C, d and F, in micrometres, by which Abbe's number is defined.
@@ -82,15 +82,11 @@ impl Writer<'_> {
         (Some(attenuation), Some(json!({ "multiscatterColor": seen, "scatterAnisotropy": g })))
     }
 
-    fn mean_cosine(&mut self, Phase(lobes): &Phase, place: &str) -> f64 {
-        if let [lobe] = lobes.as_slice()
-            && let PhaseKind::HenyeyGreenstein { g } = lobe.kind
-        {
-            return g;
+    fn mean_cosine(&mut self, phase: &Phase, place: &str) -> f64 {
+        if !phase.is_henyey_greenstein() {
+            self.approximate("phase function", place, "Henyey and Greenstein's of the same mean cosine is taken");
         }
-        self.approximate("phase function", place, "Henyey and Greenstein's of the same mean cosine is taken");
-        let of_kind = |kind: PhaseKind| if let PhaseKind::HenyeyGreenstein { g } = kind { g } else { 0.0 };
-        lobes.iter().map(|lobe| lobe.weight * of_kind(lobe.kind)).sum()
+        phase.mean_cosine()
     }
 }
 

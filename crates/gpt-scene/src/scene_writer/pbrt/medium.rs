@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Writer;
 use super::directive::Directive;
-use crate::scene::{MaterialId, Medium, MediumGrids, Outside, Phase, PhaseKind, VolumeFilter};
+use crate::scene::{MaterialId, Medium, MediumGrids, Outside, Phase, VolumeFilter};
 use crate::scene_writer::surroundings::{Content, Sides, absorbs};
 use crate::spectrum::Spectrum;
 
@@ -94,15 +94,11 @@ impl Writer<'_> {
     }
 
     /// The one phase function there is Henyey and Greenstein's.
-    fn mean_cosine(&mut self, Phase(lobes): &Phase, place: &str) -> f64 {
-        if let [lobe] = lobes.as_slice()
-            && let PhaseKind::HenyeyGreenstein { g } = lobe.kind
-        {
-            return g;
+    fn mean_cosine(&mut self, phase: &Phase, place: &str) -> f64 {
+        if !phase.is_henyey_greenstein() {
+            self.approximate("phase function", place, "Henyey and Greenstein's of the same mean cosine is taken");
         }
-        self.approximate("phase function", place, "Henyey and Greenstein's of the same mean cosine is taken");
-        let of_kind = |kind: PhaseKind| if let PhaseKind::HenyeyGreenstein { g } = kind { g } else { 0.0 };
-        lobes.iter().map(|lobe| lobe.weight * of_kind(lobe.kind)).sum()
+        phase.mean_cosine()
     }
 
     fn body_name(&self, material: MaterialId) -> String {
