@@ -135,7 +135,7 @@ impl Ways<'_> {
     fn goal(&mut self, seed: u32, adaptive: bool, target_error: Option<f64>) -> Result<Cost, RenderError> {
         let start = Instant::now();
         let mut picture = Vec::new();
-        let goal = Goal { samples: 0..SPP, region: None, deadline: None, target_error, adaptive };
+        let goal = Goal { samples: 0..SPP, region: None, deadline: None, target_error, adaptive, interval: None };
         let renderer = if adaptive { &mut self.allocating } else { &mut self.plain };
         progressive::render(renderer, self.scene.film.size, seed, &goal, &Silent, &mut |band| {
             picture.extend(band.mean);

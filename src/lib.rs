@@ -76,6 +76,8 @@ pub mod binary_tree;
 #[doc(hidden)]
 pub mod compare;
 #[doc(hidden)]
+pub mod confidence;
+#[doc(hidden)]
 pub mod cpu;
 #[cfg(feature = "denoise")]
 #[doc(hidden)]
@@ -132,6 +134,7 @@ pub use gpt_scene::{choice, load, math, scene, scene_writer, spectrum};
 #[doc(inline)]
 pub use {
     compare::{Comparison, Extreme, Metric, MetricValue, SizeMismatch},
+    confidence::{IntervalBasis, IntervalEstimate, IntervalOptions, IntervalScope},
     error::Error,
     film::Band,
     load::SceneError,

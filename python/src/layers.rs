@@ -20,6 +20,11 @@ pub fn arrays(channels: &[LayerChannel], image: &gpt::Image) -> Result<BTreeMap<
     layers.into_iter().map(|(name, sources)| Ok((name.to_owned(), array(&sources, image)?))).collect()
 }
 
+/// The low or the high end of a pixel's interval.
+fn end(image: &gpt::Image, which: usize, pixel: usize, place: usize) -> f32 {
+    image.interval_ends().map_or(f32::NAN, |ends| ends[which][pixel][place])
+}
+
 fn array(sources: &[&LayerSource], image: &gpt::Image) -> Result<Array> {
     let [width, height] = [image.width() as usize, image.height() as usize];
     let is_whole = sources.iter().all(|source| matches!(source, LayerSource::Whole(..) | LayerSource::Count));
@@ -39,6 +44,8 @@ fn array(sources: &[&LayerSource], image: &gpt::Image) -> Result<Array> {
                 let number = |place: usize| row.as_ref().map_or(0.0, |row| row[x][place]);
                 match source {
                     LayerSource::Count => whole.push(image.samples(pixel)),
+                    LayerSource::Low(place) => single.push(end(image, 0, pixel, *place)),
+                    LayerSource::High(place) => single.push(end(image, 1, pixel, *place)),
                     LayerSource::Whole(_, place) => whole.push(number(*place) as u32),
                     LayerSource::Component(_, place) => single.push(number(*place)),
                     LayerSource::Variance(_, place) => {

@@ -189,6 +189,7 @@ fn write_exr(path: &Path, scene: &Scene, device: &str, reference: &Reference) ->
         first_sample: 0,
         adaptive: false,
         target_error: None,
+        interval: None,
         device: device.to_owned(),
     };
     let (width, height, display) = (image.width, image.height, Display::CLIP);

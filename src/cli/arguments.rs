@@ -11,6 +11,7 @@ use gpt::load::LoadOptions;
 use gpt::plan::Fault;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
+use gpt::{IntervalBasis, IntervalScope};
 
 use super::bench::BenchArguments;
 use super::choice::by_name;
@@ -207,6 +208,25 @@ pub struct GoalArguments {
     /// Give noisy pixels more samples and calm ones fewer, --spp on average; unbiased
     #[arg(long, conflicts_with_all = ["first_sample", "crop"])]
     pub adaptive: bool,
+    #[command(flatten)]
+    pub interval: IntervalArguments,
+}
+
+/// The intervals that a render states.
+#[derive(Debug, Default, Args)]
+pub struct IntervalArguments {
+    /// Stop once the truth is known to this share, such as 1%: half of each interval's width is at most so much of its value, or of a tenth of the picture's. The intervals hold however often one looks. --spp is the most it may take
+    #[arg(long, value_name = "SHARE", value_parser = parse_share, conflicts_with_all = ["first_sample", "crop", "adaptive", "target_error"])]
+    pub target_interval: Option<f64>,
+    /// The probability that all intervals hold, those of --target-interval and those of the layers low and high each [default: 99%]
+    #[arg(long, value_name = "SHARE", value_parser = parse_confidence)]
+    pub confidence: Option<f64>,
+    /// The quantities whose intervals are to become so narrow [default: picture]
+    #[arg(long, value_name = "OF", value_parser = by_name::<IntervalScope>(), requires = "target_interval")]
+    pub interval_of: Option<IntervalScope>,
+    /// The assumption on which upper ends of intervals stand [default: bound, where the scene has one]
+    #[arg(long, value_name = "BASIS", value_parser = by_name::<IntervalBasis>())]
+    pub interval_by: Option<IntervalBasis>,
 }
 
 /// How a render that breaks off is saved and continued.
@@ -409,6 +429,19 @@ fn parse_definition(text: &str) -> Result<(String, String), String> {
 fn parse_target(text: &str) -> Result<f64, String> {
     let target = text.parse().ok().filter(|target: &f64| target.is_finite() && *target > 0.0);
     target.ok_or_else(|| "expected a relative mean squared error above 0, for example 0.001".to_owned())
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
+    let share = number.trim().parse().ok().map(|number: f64| number * unit);
+    share
+        .filter(|share| share.is_finite() && *share > 0.0)
+        .ok_or_else(|| "expected a share above 0, for example 1% or 0.01".to_owned())
+}
+
+fn parse_confidence(text: &str) -> Result<f64, String> {
+    let share = parse_share(text).ok().filter(|share| (0.5..1.0).contains(share));
+    share.ok_or_else(|| "expected a probability from 50% to below 100%, for example 99%".to_owned())
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {

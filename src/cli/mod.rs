@@ -19,6 +19,7 @@ mod frames;
 mod import;
 mod installing_arguments;
 mod interrupt;
+mod intervals;
 mod layers;
 mod machine_progress;
 mod merge;

@@ -27,7 +27,7 @@ use super::progress::Progress;
 use super::render_summary::{tell, tell_of_error, write_stats};
 use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
 use super::view::{Live, Phase, Watching};
-use super::{denoise, first_look, interrupt, layers, outputs, reading, settings, terminal, watch};
+use super::{denoise, first_look, interrupt, intervals, layers, outputs, reading, settings, terminal, watch};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
@@ -112,6 +112,8 @@ fn scene(
     let frames = &arguments.frames;
     let first = |path: &Path| named(path, frames.first_number());
     let scene = load(arguments, live.files())?;
+    let mut scene = scene;
+    let options = &intervals::asked_for(arguments, &mut scene, options)?;
     live.begin(&scene.name);
     let mut outputs = named_outputs.to_vec();
     if outputs.is_empty() {
@@ -212,6 +214,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     kept.tell();
     progress.end(!broke_off && summary.failures.is_empty(), &stats.outputs);
     tell_of_error(arguments, scene, outcome.error, outcome.stop);
+    intervals::tell(arguments, scene, &outcome);
     if !summary.failures.is_empty() {
         return Err(Failure::Outputs(summary.failures));
     }
@@ -245,6 +248,7 @@ fn needs(arguments: &RenderArguments, scene: &Scene, options: &RenderOptions) ->
         on_cpu: options.device == DeviceChoice::Cpu,
         adaptive: options.adaptive,
         target_error: options.target_error.is_some(),
+        intervals: options.interval.is_some(),
         checkpoint: arguments.checkpoint.is_asked_for(),
     };
     Needs { width, height, film_bytes, host_bytes: host_memory(scene, &of_host).total() }

@@ -90,6 +90,7 @@ fn summary_line(stats: &Stats, [fewest, most]: [u32; 2]) -> String {
             "interrupted" => of_wanted("when it was interrupted"),
             "time_limit" => of_wanted("when time was up"),
             "target_error" => of_wanted("when the error was reached"),
+            "target_interval" => of_wanted("when the intervals were narrow enough"),
             _ => String::new(),
         },
         stats.seconds.render,

@@ -119,6 +119,7 @@ impl BandSums {
             mean,
             remainder,
             second_moment: self.pixels.iter().map(|sum| (sum.squared_luminance * scale(sum)) as f32).collect(),
+            ..Band::default()
         }
     }
 

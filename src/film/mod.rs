@@ -32,6 +32,9 @@ pub struct Band {
     pub remainder: Vec<[f32; 3]>,
     /// Mean of the squared luminance per pixel, same order.
     pub second_moment: Vec<f32>,
+    /// The ends of each pixel's interval, same order; empty where none was asked for.
+    pub low: Vec<[f32; 3]>,
+    pub high: Vec<[f32; 3]>,
 }
 
 impl Band {
@@ -44,6 +47,8 @@ impl Band {
             mean: columns_of(&self.mean, self.width, x, columns),
             remainder: columns_of(&self.remainder, self.width, x, columns),
             second_moment: columns_of(&self.second_moment, self.width, x, columns),
+            low: columns_of(&self.low, self.width, x, columns),
+            high: columns_of(&self.high, self.width, x, columns),
             ..self
         }
     }

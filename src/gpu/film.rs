@@ -214,5 +214,6 @@ fn means(
         mean,
         remainder,
         second_moment,
+        ..Band::default()
     }
 }

@@ -194,6 +194,7 @@ impl PartHeader {
             first_sample,
             target_error: None,
             adaptive: false,
+            interval: None,
             device,
         }
     }

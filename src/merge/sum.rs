@@ -147,6 +147,7 @@ impl Merged {
                 mean,
                 remainder: pixels.iter().map(rest).collect(),
                 second_moment: pixels.iter().map(|pixel| per_sample(pixel, pixel.squares) as f32).collect(),
+                ..Band::default()
             }
         })
     }

@@ -193,6 +193,8 @@ fn pack(channel: &Channel, row: &Row<'_>, (layers, of_part): LayerRows<'_>, data
         Content::Layer(LayerSource::Count) => {
             data.extend((0..pixels.len()).flat_map(|pixel| (counts.of(pixel) as f32).to_ne_bytes()));
         }
+        Content::Layer(LayerSource::Low(place)) => pack_ends(row.low, pixels.len(), *place, 0.0, data),
+        Content::Layer(LayerSource::High(place)) => pack_ends(row.high, pixels.len(), *place, f32::INFINITY, data),
         Content::Layer(LayerSource::Component(picture, place)) => {
             data.extend(layer(picture).flat_map(|values| values[*place].to_ne_bytes()));
         }
@@ -207,6 +209,11 @@ fn pack(channel: &Channel, row: &Row<'_>, (layers, of_part): LayerRows<'_>, data
             data.extend(variances.flat_map(f32::to_ne_bytes));
         }
     }
+}
+
+/// Appends ends of intervals; rows that no sample reached have the one that is always right.
+fn pack_ends(ends: &[[f32; 3]], pixels: usize, place: usize, unknown: f32, data: &mut Vec<u8>) {
+    data.extend((0..pixels).flat_map(|pixel| ends.get(pixel).map_or(unknown, |end| end[place]).to_ne_bytes()));
 }
 
 /// The largest number of half precision stands for what is beyond: of a picture it is as bright, and it is a number.

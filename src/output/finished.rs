@@ -121,6 +121,7 @@ mod tests {
             first_sample: 0,
             target_error: None,
             adaptive: false,
+            interval: None,
             device: device.to_owned(),
         };
         PictureSpec { width: 8, height: 4, provenance: Some(provenance), ..PictureSpec::default() }

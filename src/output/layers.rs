@@ -10,6 +10,10 @@ use crate::film::{KernelLayer, Layer};
 /// The channel of the numbers of samples that pixels have.
 pub const SAMPLE_COUNT: &str = "SampleCount";
 
+/// The channels of the ends of pixels' intervals.
+pub const LOW: [&str; 3] = ["Low.R", "Low.G", "Low.B"];
+pub const HIGH: [&str; 3] = ["High.R", "High.G", "High.B"];
+
 /// Three numbers a pixel, row by row.
 #[derive(Debug)]
 pub struct LayerPicture {
@@ -74,6 +78,10 @@ pub enum LayerSource {
     Variance(Arc<LayerPicture>, usize),
     /// Samples of the pixel.
     Count,
+    /// The low end of a channel's interval.
+    Low(usize),
+    /// The high end.
+    High(usize),
 }
 
 impl LayerSource {
@@ -81,7 +89,7 @@ impl LayerSource {
     pub fn picture(&self) -> Option<&Arc<LayerPicture>> {
         match self {
             Self::Component(picture, _) | Self::Whole(picture, _) | Self::Variance(picture, _) => Some(picture),
-            Self::Count => None,
+            Self::Count | Self::Low(_) | Self::High(_) => None,
         }
     }
 }
@@ -89,7 +97,16 @@ impl LayerSource {
 impl LayerChannel {
     /// The channels of a layer whose numbers a picture holds; where none does, the number of samples is meant.
     pub fn of(layer: Layer, picture: Option<&Arc<LayerPicture>>) -> Vec<Self> {
-        let Some(picture) = picture else { return vec![Self { name: SAMPLE_COUNT, source: LayerSource::Count }] };
+        let ends = |names: [&'static str; 3], source: fn(usize) -> LayerSource| {
+            names.into_iter().enumerate().map(|(place, name)| Self { name, source: source(place) }).collect()
+        };
+        let Some(picture) = picture else {
+            return match layer {
+                Layer::Low => ends(LOW, LayerSource::Low),
+                Layer::High => ends(HIGH, LayerSource::High),
+                _ => vec![Self { name: SAMPLE_COUNT, source: LayerSource::Count }],
+            };
+        };
         let of_picture = |names: &[&'static str], source: &dyn Fn(usize) -> LayerSource| -> Vec<Self> {
             names.iter().enumerate().map(|(place, name)| Self { name, source: source(place) }).collect()
         };

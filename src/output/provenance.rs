@@ -1,6 +1,8 @@
 //! The origin of a picture, which a file's header states so that the picture can be made again.
 
 use super::rows::Completeness;
+use crate::choice::Choice;
+use crate::confidence::IntervalOptions;
 use crate::scene::settings::{Setting, Value, Values};
 use crate::scene::{Filter, RenderSettings};
 
@@ -18,6 +20,8 @@ pub struct Provenance {
     pub target_error: Option<f64>,
     /// Pixels have more or fewer samples as their noise asked; numbers of samples are averages.
     pub adaptive: bool,
+    /// The intervals that were stated, and what they stand on.
+    pub interval: Option<IntervalOptions>,
     pub device: String,
 }
 
@@ -42,6 +46,11 @@ pub const LAYERS_KEY: &str = "gpt:layers";
 /// Key of 1 where the render was interrupted or its device lost, else 0: a time limit, say, leaves a finished picture.
 pub(super) const BROKEN_OFF_KEY: &str = "gpt:brokenOff";
 
+/// Key of the probability that all intervals of pixels hold.
+pub const CONFIDENCE_KEY: &str = "gpt:confidence";
+/// Key of the assumption that they stand on.
+pub const BASIS_KEY: &str = "gpt:intervalBy";
+
 impl Provenance {
     /// The header's entries, for a file in which every pixel received at least `samples`.
     pub(super) fn entries(&self, samples: u32, completeness: Completeness) -> Vec<(&'static str, Entry)> {
@@ -61,6 +70,14 @@ impl Provenance {
         ];
         entries.extend(settings.values().map(|(setting, value)| (setting.header, entry(setting, value))));
         entries.extend(self.target_error.map(|target| ("gpt:targetError", Entry::Text(target.to_string()))));
+        if let Some(IntervalOptions { target, confidence, of, by, .. }) = self.interval {
+            entries.push((CONFIDENCE_KEY, Entry::Text(confidence.to_string())));
+            entries.extend(by.map(|by| (BASIS_KEY, Entry::Text(by.name().to_owned()))));
+            if let Some(target) = target {
+                entries.push(("gpt:targetInterval", Entry::Text(target.to_string())));
+                entries.push(("gpt:intervalOf", Entry::Text(of.name().to_owned())));
+            }
+        }
         entries
     }
 }

@@ -53,6 +53,8 @@ pub(super) struct Row<'a> {
     pub(super) counts: Counts<'a>,
     pub(super) remainder: &'a [[f32; 3]],
     pub(super) second_moment: &'a [f32],
+    pub(super) low: &'a [[f32; 3]],
+    pub(super) high: &'a [[f32; 3]],
 }
 
 /// The render ended without a word, so the file must not be finished.
@@ -84,12 +86,19 @@ impl Rows {
         self.reach(row)?;
         if row < self.band.first_row || row >= self.band.first_row + self.band.rows {
             self.fewest_samples = 0;
-            return Ok(Row { mean: &self.blank, counts: Counts::Even(0), remainder: &[], second_moment: &[] });
+            return Ok(Row {
+                mean: &self.blank,
+                counts: Counts::Even(0),
+                remainder: &[],
+                second_moment: &[],
+                low: &[],
+                high: &[],
+            });
         }
         self.fewest_samples = self.fewest_samples.min(self.band.samples);
         let width = self.blank.len();
         let start = (row - self.band.first_row) as usize * width;
-        let Band { mean, counts, remainder, second_moment, samples, .. } = &*self.band;
+        let Band { mean, counts, remainder, second_moment, samples, low, high, .. } = &*self.band;
         Ok(Row {
             mean: &mean[start..start + width],
             counts: match counts {
@@ -98,6 +107,8 @@ impl Rows {
             },
             remainder: remainder.get(start..start + width).unwrap_or_default(),
             second_moment: second_moment.get(start..start + width).unwrap_or_default(),
+            low: low.get(start..start + width).unwrap_or_default(),
+            high: high.get(start..start + width).unwrap_or_default(),
         })
     }
 

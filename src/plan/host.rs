@@ -34,6 +34,8 @@ const BAND_PIXELS: u64 = 1 << 20;
 /// Bytes per pixel for adaptive sampling, and for a target error: means, doublings and streams.
 const ADAPTIVE_BYTES: u64 = 64;
 const TARGET_BYTES: u64 = 36;
+/// Bytes per pixel of the sums for intervals and of the sample under way.
+const INTERVAL_BYTES: u64 = 96;
 /// Bytes per pixel that takes part in the estimate of the error, and the most such pixels.
 const STREAM_BYTES: u64 = 128;
 const STREAM_PIXELS: u64 = 1 << 18;
@@ -49,13 +51,15 @@ pub struct HostNeeds {
     pub on_cpu: bool,
     pub adaptive: bool,
     pub target_error: bool,
+    /// Intervals are stated.
+    pub intervals: bool,
     /// States are kept.
     pub checkpoint: bool,
 }
 
 /// The host's memory for a render, by what takes it.
 pub fn host_memory(scene: &Scene, needs: &HostNeeds) -> Memory {
-    let HostNeeds { pixels, on_cpu, adaptive, target_error, checkpoint } = *needs;
+    let HostNeeds { pixels, on_cpu, adaptive, target_error, intervals, checkpoint } = *needs;
     let way = usize::from(!on_cpu);
     let summary = SceneSummary::of(scene);
     let triangles = (summary.triangles + summary.group_triangles) as u64;
@@ -74,7 +78,8 @@ pub fn host_memory(scene: &Scene, needs: &HostNeeds) -> Memory {
     let grids: u64 = grids.map(|volume| 4 * volume.grid.values().len() as u64).sum();
     let film = pixels.min(MOST_FILM_PIXELS);
     let of = |is_so: bool, bytes: u64| if is_so { bytes } else { 0 };
-    let steps = of(adaptive, ADAPTIVE_BYTES * pixels) + of(target_error, TARGET_BYTES * pixels);
+    let steps =
+        of(adaptive, ADAPTIVE_BYTES * pixels) + of(target_error, TARGET_BYTES * pixels) + of(intervals, INTERVAL_BYTES * pixels);
     let streams = of(target_error, STREAM_BYTES * pixels.min(STREAM_PIXELS));
     let arrays = [
         ("program", PROGRAM_BYTES[way]),

@@ -28,6 +28,8 @@ struct Rendered {
     fewest_samples: u32,
     /// Samples of each pixel, where they may differ.
     counts: Option<Vec<u32>>,
+    /// The ends of each pixel's interval, where they were asked for.
+    ends: Option<[Vec<[f32; 3]>; 2]>,
 }
 
 impl Image {
@@ -36,18 +38,24 @@ impl Image {
         let mut pixels = vec![[0.0; 3]; width as usize * height as usize];
         let (mut rows, mut fewest_samples) = (0, u32::MAX);
         let mut counts = bands.iter().any(|band| band.counts.is_some()).then(|| vec![0; pixels.len()]);
+        let have_ends = bands.iter().any(|band| !band.low.is_empty());
+        let mut ends = have_ends.then(|| [vec![[0.0; 3]; pixels.len()], vec![[f32::INFINITY; 3]; pixels.len()]]);
         for band in bands {
             let start = band.first_row as usize * width as usize;
             pixels[start..start + band.mean.len()].copy_from_slice(&band.mean);
             if let (Some(counts), Some(of_band)) = (&mut counts, &band.counts) {
                 counts[start..start + of_band.len()].copy_from_slice(of_band);
             }
+            if let Some([low, high]) = &mut ends {
+                low[start..start + band.low.len()].copy_from_slice(&band.low);
+                high[start..start + band.high.len()].copy_from_slice(&band.high);
+            }
             rows += band.rows;
             fewest_samples = fewest_samples.min(band.samples);
         }
         let fewest_samples = if rows == height { fewest_samples } else { 0 };
         let pixels = output::Image { width, height, pixels };
-        Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples, counts }), warnings: Vec::new() }
+        Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples, counts, ends }), warnings: Vec::new() }
     }
 
     /// A picture of these pixels, row by row from the top; None where there is no pixel, or their number is not `width * height`.
@@ -92,6 +100,12 @@ impl Image {
     pub fn samples(&self, pixel: usize) -> u32 {
         let of = |rendered: &Rendered| rendered.counts.as_ref().map_or(rendered.fewest_samples, |counts| counts[pixel]);
         self.rendered.as_ref().map_or(0, of)
+    }
+
+    /// The low and the high ends of all pixels' intervals, row by row from the top, of a picture that was rendered with layers of them
+    /// ([`IntervalOptions::layers`](crate::IntervalOptions)).
+    pub fn interval_ends(&self) -> Option<&[Vec<[f32; 3]>; 2]> {
+        self.rendered.as_ref().and_then(|rendered| rendered.ends.as_ref())
     }
 
     /// Samples of the pixel that has fewest, of a picture that was rendered.

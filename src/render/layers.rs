@@ -80,7 +80,8 @@ fn render_layer<E: From<RenderError>>(
     checkpoint: LayerCheckpoints<'_, E>,
 ) -> Result<Option<Rendered>, E> {
     let plan = PlanOptions { layer: Some(layer), ..options.plan.clone() };
-    let of_layer = RenderOptions { plan, time_limit: None, target_error: None, adaptive: false, ..options.clone() };
+    let of_layer =
+        RenderOptions { plan, time_limit: None, target_error: None, adaptive: false, interval: None, ..options.clone() };
     let center = if layer == KernelLayer::Position { scene.center() } else { DVec3::ZERO };
     let scene = layer_scene(scene, layer);
     let mut renderer = Renderer::on(Renderer::begin(&of_layer), &scene, &of_layer)?;

@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::time::Duration;
 
 use super::progressive::STREAMS;
+use crate::confidence::options::FEWEST_SAMPLES;
+use crate::confidence::{IntervalBasis, IntervalOptions, sample_bound};
 use crate::error::Error;
 use crate::plan::PlanOptions;
 use crate::renderer::DeviceChoice;
@@ -37,6 +39,8 @@ pub struct RenderOptions {
     pub target_error: Option<f64>,
     /// Noisy pixels get more samples and calm ones fewer, the given number on average. The estimate stays unbiased.
     pub adaptive: bool,
+    /// Intervals that hold the truth, and how narrow they are to become. Samples are independent of each other then.
+    pub interval: Option<IntervalOptions>,
     /// Choices that are made in place of the plan.
     #[doc(hidden)]
     pub plan: PlanOptions,
@@ -73,6 +77,9 @@ impl RenderOptions {
         if let Some(seed) = self.seed {
             scene.to_mut().render.seed = seed;
         }
+        if let Some(interval) = &self.interval {
+            interval.apply(&mut scene.to_mut().render);
+        }
         match self.contradiction(&scene) {
             Some(message) => Err(Error::Options(message)),
             None => Ok(scene),
@@ -80,7 +87,8 @@ impl RenderOptions {
     }
 
     /// A contradiction between the options, in a sentence.
-    fn contradiction(&self, scene: &Scene) -> Option<String> {
+    #[doc(hidden)]
+    pub fn contradiction(&self, scene: &Scene) -> Option<String> {
         if let Err(bad) = scene.film.check() {
             return Some(bad.to_string());
         }
@@ -109,12 +117,30 @@ impl RenderOptions {
                 ));
             }
         }
+        if let Some(interval) = &self.interval
+            && let Some(message) = self.contradiction_of_interval(interval, scene)
+        {
+            return Some(message);
+        }
         let target = self.target_error?;
         if !(target.is_finite() && target > 0.0) {
             return Some(format!("target_error is a number above 0, not {target}"));
         }
         let least = 2 * STREAMS;
         (samples < least).then(|| format!("target_error needs at least {least} samples per pixel; {samples} are allowed"))
+    }
+
+    /// A contradiction between intervals and the rest, in a sentence.
+    fn contradiction_of_interval(&self, interval: &IntervalOptions, scene: &Scene) -> Option<String> {
+        if self.first_sample > 0 || self.crop.is_some() || self.adaptive || self.target_error.is_some() {
+            return Some("intervals belong to renders of the whole picture by one number of samples".to_owned());
+        }
+        if scene.render.spp < FEWEST_SAMPLES {
+            return Some(format!("intervals need at least {FEWEST_SAMPLES} samples per pixel; {} are allowed", scene.render.spp));
+        }
+        let bound = (interval.by == Some(IntervalBasis::Bound)).then(|| sample_bound(scene));
+        let unbounded = bound.and_then(Result::err).map(|why| format!("intervals by a bound: samples have none, because {why}"));
+        interval.mistake().or(unbounded)
     }
 }
 

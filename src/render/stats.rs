@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::image::Image;
 use super::options::RenderOptions;
 use super::progressive::Outcome;
+use crate::confidence::IntervalEstimate;
 use crate::renderer::Decision;
 use crate::scene::{RenderSettings, Scene};
 
@@ -35,7 +36,7 @@ pub struct Stats {
     pub settings: RenderSettings,
     /// Samples per pixel that the least finished row has; on average, where they follow the noise.
     pub spp_done: u32,
-    /// `samples`, `time_limit`, `target_error` or `interrupted`.
+    /// `samples`, `time_limit`, `target_error`, `target_interval` or `interrupted`.
     pub stopped_by: &'static str,
     pub adaptive: bool,
     /// The relative mean squared error that was to be reached, its estimate by what was sampled, and that with a margin for chance.
@@ -46,6 +47,9 @@ pub struct Stats {
     pub tails_decide: Option<bool>,
     /// Emitters shine through glass or by mirrors: light that no path has found is not in the estimate.
     pub light_by_chance: Option<bool>,
+    /// The intervals, where some were stated, and how narrow they were to become.
+    pub target_interval: Option<f64>,
+    pub interval: Option<IntervalEstimate>,
     pub first_sample: u32,
     pub seconds: Seconds,
     /// Samples finished, over all pixels; those of the render that this one went on from are among them.
@@ -112,6 +116,8 @@ impl Stats {
             expected_error: outcome.error.map(|error| error.mean),
             error_bound: outcome.error.map(|error| error.upper),
             tails_decide: outcome.error.map(|error| error.tails_decide()),
+            target_interval: options.interval.and_then(|interval| interval.target),
+            interval: outcome.interval,
             light_by_chance: outcome.error.map(|_| scene.has_light_by_chance()),
             first_sample: options.first_sample,
             seconds: Seconds {

@@ -8,6 +8,7 @@ use super::free_memory::FreeMemory;
 use super::image::Image;
 use super::options::RenderOptions;
 use super::progressive::{self, Goal, Outcome};
+use crate::confidence::IntervalGoal;
 use crate::device::{ChosenDevice, ChosenRenderer};
 use crate::error::Error;
 use crate::film::Band;
@@ -37,6 +38,7 @@ pub struct Renderer {
     size: [u32; 2],
     provenance: Provenance,
     bulk: BulkDigest,
+    interval: Option<IntervalGoal>,
     /// Dropped behind the renderer.
     memory: FreeMemory,
 }
@@ -70,7 +72,8 @@ impl Renderer {
         let provenance = Self::provenance_with(&bulk, scene, options, renderer.device());
         let film = scene.film.size;
         let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
-        Ok(Self { renderer, notice, options: options.clone(), film, size, provenance, bulk, memory: FreeMemory })
+        let interval = options.interval.map(|interval| interval.goal(scene));
+        Ok(Self { renderer, notice, options: options.clone(), film, size, provenance, bulk, interval, memory: FreeMemory })
     }
 
     /// Goes on to another frame of the scene, on the same device and with all that does not change. Both are [`Scene::at_frame`] of one scene, with
@@ -86,7 +89,8 @@ impl Renderer {
         let change = if same_meshes && scene.shapes_stand_as_in(before) { Change::Camera } else { Change::Shapes };
         let renderer = renderer.with_scene(scene, change)?;
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
-        Ok(Self { renderer, notice, options, film, size, provenance, bulk, memory })
+        let interval = options.interval.map(|interval| interval.goal(scene));
+        Ok(Self { renderer, notice, options, film, size, provenance, bulk, interval, memory })
     }
 
     /// Goes on to another scene, on the same device and with the kernels whose text is the same. `before`: the scene that it had; where they
@@ -110,7 +114,8 @@ impl Renderer {
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
         let film = scene.film.size;
         let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
-        Ok(Self { renderer, notice, options, film, size, provenance, bulk, memory })
+        let interval = options.interval.map(|interval| interval.goal(scene));
+        Ok(Self { renderer, notice, options, film, size, provenance, bulk, interval, memory })
     }
 
     /// A fingerprint of the scene's meshes and pictures, which all of its frames share but those in which meshes are deformed.
@@ -137,6 +142,7 @@ impl Renderer {
             first_sample: options.first_sample,
             target_error: options.target_error,
             adaptive: options.adaptive,
+            interval: options.interval.map(|interval| interval.goal(scene).options),
             device: device.to_owned(),
         }
     }
@@ -211,7 +217,7 @@ impl Renderer {
     ) -> Result<Outcome, RenderError> {
         let Goal { samples: all, region, .. } = self.goal();
         let first = all.start..all.end.min(all.start.saturating_add(samples));
-        let goal = Goal { samples: first, region, deadline: None, target_error: None, adaptive: false };
+        let goal = Goal { samples: first, region, deadline: None, target_error: None, adaptive: false, interval: None };
         self.render_for(&goal, observer, None, on_band)
     }
 
@@ -235,7 +241,8 @@ impl Renderer {
     fn goal(&self) -> Goal {
         let RenderOptions { first_sample, time_limit, target_error, adaptive, .. } = self.options;
         let samples = first_sample..first_sample + self.provenance.settings.spp;
-        Goal { samples, region: self.options.crop, deadline: time_limit.map(|_| Instant::now()), target_error, adaptive }
+        let deadline = time_limit.map(|_| Instant::now());
+        Goal { samples, region: self.options.crop, deadline, target_error, adaptive, interval: self.interval }
     }
 
     /// The values that decide the picture, and that a state must share so that a render can go on from it.

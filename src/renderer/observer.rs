@@ -1,5 +1,6 @@
 //! Whoever watches a render.
 
+use crate::confidence::IntervalEstimate;
 use crate::film::Band;
 
 /// Is told how far a render is, and says whether it should go on. Called from the rendering thread, several times a second.
@@ -24,6 +25,11 @@ pub trait Observer: Sync {
     /// with an error to reach.
     fn error_so_far(&self, expected: f64, upper: f64) {
         let _ = (expected, upper);
+    }
+
+    /// The intervals that the picture has now. Known of renders that state some.
+    fn interval_so_far(&self, interval: &IntervalEstimate) {
+        let _ = interval;
     }
 }
 

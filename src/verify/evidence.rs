@@ -55,6 +55,7 @@ fn write_picture(
         first_sample: 0,
         target_error: None,
         adaptive: false,
+        interval: None,
         device: verdict.device.clone(),
     };
     let (width, height) = (verdict.width, verdict.height);

@@ -53,7 +53,7 @@ fn cornell(size: [u32; 2]) -> Scene {
 }
 
 fn goal(spp: u32) -> Goal {
-    Goal { samples: 0..spp, region: None, deadline: None, target_error: None, adaptive: false }
+    Goal { samples: 0..spp, region: None, deadline: None, target_error: None, adaptive: false, interval: None }
 }
 
 fn identity(scene: &Scene, seed: u32) -> Identity {
@@ -65,6 +65,7 @@ fn identity(scene: &Scene, seed: u32) -> Identity {
         first_sample: 0,
         target_error: None,
         adaptive: false,
+        interval: None,
         device: String::new(),
     };
     Identity::new(&provenance, scene.film.size, None, true)

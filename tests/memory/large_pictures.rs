@@ -38,6 +38,7 @@ fn an_8k_picture_takes_a_fraction_of_its_size_in_memory() {
         first_sample: 0,
         target_error: None,
         adaptive: false,
+        interval: None,
         device: "none".to_owned(),
     };
     let (provenance, display) = (Some(provenance), Display::CLIP);

@@ -12,7 +12,7 @@ use gpt::scene::Scene;
 
 use super::caustic::CAUSTIC;
 
-const SIDE: u32 = 20;
+pub const SIDE: u32 = 20;
 const MOST: u32 = 1024;
 
 /// A scene, the error that its renders are to reach, and whether some of its light is rare: found by few paths, which carry much of it.
@@ -70,9 +70,10 @@ pub struct Coverage {
     pub bias: f64,
 }
 
-fn scene(case: &Case) -> Scene {
-    let from_text = |text: &str| load::load_toml_str(text, case.name, std::path::Path::new(""));
-    let mut scene = match case.name {
+/// A scene of a name, small.
+pub fn scene(name: &str) -> Scene {
+    let from_text = |text: &str| load::load_toml_str(text, name, std::path::Path::new(""));
+    let mut scene = match name {
         "under-sky" => from_text(SKY),
         "behind glass" => from_text(BEHIND_GLASS),
         "caustic" => from_text(CAUSTIC),
@@ -81,6 +82,13 @@ fn scene(case: &Case) -> Scene {
     .expect("a scene");
     scene.film.size = [SIDE, SIDE];
     scene
+}
+
+/// The relative mean squared error of a picture.
+pub fn relative_error(pixels: &[[f64; 3]], truth: &[[f64; 3]]) -> f64 {
+    let squared = |(found, truth): (&f64, &f64)| (found - truth).powi(2) * relative_weight(*truth);
+    let pairs = pixels.as_flattened().iter().zip(truth.as_flattened());
+    pairs.map(squared).sum::<f64>() / f64::from(3 * SIDE * SIDE)
 }
 
 fn render(renderer: &mut ReferenceRenderer, seed: u32, goal: &Goal) -> (Vec<[f64; 3]>, Outcome) {
@@ -93,18 +101,23 @@ fn render(renderer: &mut ReferenceRenderer, seed: u32, goal: &Goal) -> (Vec<[f64
 }
 
 fn measure(case: &Case, seeds: u32, truth_samples: u32) -> Coverage {
-    let scene = scene(case);
+    let scene = scene(case.name);
     let mut renderer = ReferenceRenderer::new(&scene).expect("the scene fits");
-    let goal = |samples, target_error| Goal { samples: 0..samples, region: None, deadline: None, target_error, adaptive: false };
+    let goal = |samples, target_error| Goal {
+        samples: 0..samples,
+        region: None,
+        deadline: None,
+        target_error,
+        adaptive: false,
+        interval: None,
+    };
     let (truth, _) = render(&mut renderer, 1, &goal(truth_samples, None));
     let mean = |pixels: &[[f64; 3]]| pixels.as_flattened().iter().sum::<f64>();
     let (mut exceeded, mut unwarned, mut missed, mut warned, mut bias) = (0, 0, 0, 0, 0.0);
     for seed in 0..seeds {
         let (pixels, outcome) = render(&mut renderer, 1000 + seed, &goal(MOST, Some(case.target)));
         let stated = outcome.error.expect("it was looked at");
-        let squared = |(found, truth): (&f64, &f64)| (found - truth).powi(2) * relative_weight(*truth);
-        let pairs = pixels.as_flattened().iter().zip(truth.as_flattened());
-        let error = pairs.map(squared).sum::<f64>() / f64::from(3 * SIDE * SIDE);
+        let error = relative_error(&pixels, &truth);
         let is_warned = stated.tails_decide() || scene.has_light_by_chance();
         warned += u32::from(is_warned);
         exceeded += u32::from(error > stated.upper);

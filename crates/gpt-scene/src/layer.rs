@@ -19,6 +19,11 @@ choices! {
         Variance = "variance",
         /// Samples of the pixel: SampleCount.
         Samples = "samples",
+        /// The low end of the interval of R, G and B: Low.R, .G, .B. All pixels' intervals together hold the truth at the confidence of
+        /// --confidence, however often one looks.
+        Low = "low",
+        /// The high end: High.R, .G, .B.
+        High = "high",
         /// Light that the first surface sends on: Direct.R, .G, .B.
         Direct = "direct",
         /// Light of more edges: Indirect.R, .G, .B.
@@ -86,7 +91,7 @@ impl Layer {
             Self::Direct => Some(KernelLayer::Direct),
             Self::Indirect => Some(KernelLayer::Indirect),
             Self::Emission => Some(KernelLayer::Emission),
-            Self::Samples | Self::Ids | Self::Cryptomatte => None,
+            Self::Samples | Self::Low | Self::High | Self::Ids | Self::Cryptomatte => None,
         }
     }
 

@@ -47,6 +47,8 @@ pub struct Status {
     pub seconds: f64,
     /// Relative mean squared error that is expected, and that with a margin for chance, where there is one to reach.
     pub error: Option<[f64; 2]>,
+    /// Half the width of the widest interval, as a share of its value, and the confidence, where intervals are stated.
+    pub interval: Option<[f64; 2]>,
     /// How often the scene was rendered.
     pub round: u32,
     pub files: Vec<String>,
@@ -154,6 +156,10 @@ impl LiveState {
             let status = &mut shown.status;
             (status.phase, status.done, status.total) = (phase, done, total);
         });
+    }
+
+    pub fn interval(&self, widest: f64, confidence: f64) {
+        self.change(|shown| shown.status.interval = Some([widest, confidence]));
     }
 
     pub fn error(&self, expected: f64, upper: f64) {

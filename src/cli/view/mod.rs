@@ -15,10 +15,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use gpt::Observer;
 use gpt::film::Band;
 use gpt::load::FileLog;
 use gpt::output::{Display, LayerChannel};
+use gpt::{IntervalEstimate, Observer};
 
 pub use arguments::ViewArguments;
 use live_state::LiveState;
@@ -235,6 +235,12 @@ impl Observer for Watching<'_> {
         let asked = self.asked().take().unwrap_or_else(Instant::now);
         if let Some(state) = &self.live.state {
             state.rows(rows, self.height, asked);
+        }
+    }
+
+    fn interval_so_far(&self, interval: &IntervalEstimate) {
+        if let Some(state) = &self.live.state {
+            state.interval(interval.widest, interval.confidence);
         }
     }
 

@@ -20,6 +20,7 @@ fn spec(width: u32, height: u32, spp: u32) -> PictureSpec {
         first_sample: 128,
         target_error: None,
         adaptive: false,
+        interval: None,
         device: "a device".to_owned(),
     };
     PictureSpec { width, height, display: Display::CLIP, provenance: Some(provenance), ..PictureSpec::default() }

@@ -44,7 +44,7 @@ mod thin_film;
 mod thin_glass;
 mod view;
 
-pub use fresnel::refract;
+pub use fresnel::{conductor_reflectance, refract};
 pub use lookup::Lookup;
 pub use mixture::{Bsdf, pick};
 pub use scatter::{BsdfSample, Density, Evaluation};

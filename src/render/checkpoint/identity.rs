@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::choice::Choice;
+use crate::confidence::IntervalOptions;
 use crate::film::KernelLayer;
 use crate::output::Provenance;
 
@@ -30,7 +31,7 @@ pub struct Difference {
 impl Identity {
     /// The identity of a render of a film of so many pixels or of a region of it, in one batch or in steps.
     pub fn new(provenance: &Provenance, [width, height]: [u32; 2], crop: Option<[u32; 4]>, is_one_batch: bool) -> Self {
-        let Provenance { scene_hash, settings, filter, first_sample, target_error, adaptive, .. } = provenance;
+        let Provenance { scene_hash, settings, filter, first_sample, target_error, adaptive, interval, .. } = provenance;
         let order = if cfg!(target_endian = "little") { "little" } else { "big" };
         let mut entries = vec![
             (VERSION.to_owned(), format!("{}, layout {LAYOUT}", env!("CARGO_PKG_VERSION"))),
@@ -43,6 +44,15 @@ impl Identity {
             ("--adaptive".to_owned(), adaptive.to_string()),
             ("--target-error".to_owned(), target_error.map_or_else(|| "none".to_owned(), |target| target.to_string())),
         ];
+        if let Some(IntervalOptions { target, confidence, of, by, .. }) = interval {
+            let none = || "none".to_owned();
+            entries.extend([
+                ("--confidence".to_owned(), confidence.to_string()),
+                ("--target-interval".to_owned(), target.map_or_else(none, |target| target.to_string())),
+                ("--interval-of".to_owned(), of.name().to_owned()),
+                ("--interval-by".to_owned(), by.map_or_else(none, |by| by.name().to_owned())),
+            ]);
+        }
         entries.extend(settings.values().map(|(setting, value)| (setting.flag.to_owned(), value.to_string())));
         // Flags that decide this come first, for they say more.
         entries.push((WAY.to_owned(), if is_one_batch { "in one go" } else { "in steps" }.to_owned()));
@@ -101,6 +111,7 @@ mod tests {
             first_sample: 0,
             target_error: None,
             adaptive: false,
+            interval: None,
             device: "a device".to_owned(),
         }
     }

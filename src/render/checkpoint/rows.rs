@@ -111,7 +111,7 @@ impl RowsFile {
             if hash.finalize().as_slice() != digest {
                 return Err(damaged());
             }
-            on_band(Band { first_row, width, rows, samples, counts, mean, remainder, second_moment })?;
+            on_band(Band { first_row, width, rows, samples, counts, mean, remainder, second_moment, ..Band::default() })?;
         }
         self.file.seek(SeekFrom::Start(self.bytes)).map(|_| ())
     }
@@ -159,6 +159,7 @@ mod tests {
             mean: vec![[0.5; 3]; 2],
             remainder: Vec::new(),
             second_moment: vec![0.25; 2],
+            ..Band::default()
         }
     }
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::file::{self, Content, DAMAGED};
 use super::identity::Identity;
+use crate::confidence::sums::{PixelSums, Shared};
 use crate::output::OutputError;
 use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::state::{BatchState, FilmState, MOST_SAMPLES_PER_ITERATION, Tally};
@@ -44,6 +45,9 @@ pub struct StepsState {
     /// Mean luminances of the doublings, and how often each pixel's share was doubled before the stage.
     pub doublings: Vec<Vec<f32>>,
     pub levels: Vec<u8>,
+    /// Each pixel's sums for intervals, and the numbers that all share.
+    pub intervals: Vec<PixelSums>,
+    pub shared: Shared,
 }
 
 /// The position of a render in its steps.
@@ -92,6 +96,18 @@ struct StepsHeader {
     error: Option<ErrorEstimate>,
     doublings: Vec<usize>,
     levels: usize,
+    #[serde(default)]
+    intervals: usize,
+    #[serde(default)]
+    shared: Shared,
+}
+
+impl StepsHeader {
+    /// Its arrays are those of a picture of this size: the sums of batches, or those of intervals.
+    fn fits(&self, pixels: usize, rows: usize) -> bool {
+        let of_batches = self.pixels == pixels && self.rows == rows && self.intervals == 0;
+        of_batches || (self.intervals == pixels && self.pixels == 0 && self.rows == 0)
+    }
 }
 
 /// Why a checkpoint is none for this render.
@@ -138,6 +154,7 @@ impl Saved {
             arrays.extend(steps.streams.iter().map(|sums| bytemuck::cast_slice(sums)));
             arrays.extend(steps.doublings.iter().map(|means| bytemuck::cast_slice(means)));
             arrays.push(&steps.levels);
+            arrays.push(bytemuck::cast_slice(&steps.intervals));
             StepsHeader {
                 place: steps.place,
                 tally: numbers(steps.tally),
@@ -148,6 +165,8 @@ impl Saved {
                 error: steps.error,
                 doublings: steps.doublings.iter().map(Vec::len).collect(),
                 levels: steps.levels.len(),
+                intervals: steps.intervals.len(),
+                shared: steps.shared,
             }
         });
         let Self { seconds, device, rows, .. } = self;
@@ -187,7 +206,7 @@ impl Saved {
         let batch = BatchState { rows, done, iteration, reached, film: Arc::new(film), tally: tally(counted) };
         let steps = match content.header.steps.take() {
             None => None,
-            Some(header) if header.pixels == pixels && header.rows == height as usize => Some(StepsState {
+            Some(header) if header.fits(pixels, height as usize) => Some(StepsState {
                 place: header.place,
                 tally: tally(header.tally),
                 radiance: content.array(header.pixels)?,
@@ -198,6 +217,8 @@ impl Saved {
                 error: header.error,
                 doublings: header.doublings.iter().map(|items| content.array(*items)).collect::<Result<_, _>>()?,
                 levels: content.array(header.levels)?,
+                intervals: content.array(header.intervals)?,
+                shared: header.shared,
             }),
             Some(_) => return Err(damaged()),
         };
@@ -221,6 +242,7 @@ mod tests {
             first_sample: 0,
             target_error: None,
             adaptive: false,
+            interval: None,
             device: String::new(),
         };
         Identity::new(&provenance, [2, 3], None, true)
@@ -250,8 +272,15 @@ mod tests {
                 error: Some(ErrorEstimate { mean: 0.1, upper: 0.2, by_one: 0.3, effective_pixels: 0.4 }),
                 doublings: vec![vec![1.0; 6], vec![2.0; 6]],
                 levels: vec![1; 6],
+                ..StepsState::default()
             };
-            for steps in [None, Some(steps)] {
+            let of_intervals = StepsState {
+                place: StepPosition { next: 9, ..StepPosition::default() },
+                intervals: vec![PixelSums { warm_up: [1.0; 3], sum: [2.0; 3], squares: [3.0; 3] }; 6],
+                shared: [0.5; 6],
+                ..StepsState::default()
+            };
+            for steps in [None, Some(steps), Some(of_intervals)] {
                 let saved =
                     Saved { seconds: 1.5, device: "d".to_owned(), batch: batch.clone(), steps, rows: Some(("r".to_owned(), 9)) };
                 saved.write(&path, &identity(1)).expect("it is written");

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
+use crate::confidence::{IntervalEstimate, IntervalGoal};
 use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::RenderReport;
 
@@ -22,6 +23,8 @@ pub struct Goal {
     pub target_error: Option<f64>,
     /// More samples where the picture is noisier; the renderer must have been made for it.
     pub adaptive: bool,
+    /// Intervals that hold the truth, of samples that are independent of each other; only of renders of the whole picture, with no error to reach.
+    pub interval: Option<IntervalGoal>,
 }
 
 /// Why a render ended.
@@ -33,6 +36,8 @@ pub enum Stop {
     TimeLimit,
     /// The error is as small as was asked for.
     TargetError,
+    /// The intervals are as narrow as was asked for.
+    TargetInterval,
     /// The observer asked for the end.
     Interrupted,
 }
@@ -44,6 +49,7 @@ impl Stop {
             Self::Samples => "samples",
             Self::TimeLimit => "time_limit",
             Self::TargetError => "target_error",
+            Self::TargetInterval => "target_interval",
             Self::Interrupted => "interrupted",
         }
     }
@@ -58,6 +64,8 @@ pub struct Outcome {
     pub stop: Stop,
     /// The error as last estimated, where there was one to reach.
     pub error: Option<ErrorEstimate>,
+    /// The intervals at the end, where some were asked for.
+    pub interval: Option<IntervalEstimate>,
 }
 
 /// Why a batch ended early, if it did.

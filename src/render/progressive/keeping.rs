@@ -105,6 +105,7 @@ impl Sink for StepBatch<'_> {
             error: self.error,
             doublings: self.doublings.as_ref().map_or_else(Vec::new, |doublings| doublings.means().to_vec()),
             levels: self.levels.to_vec(),
+            ..StepsState::default()
         };
         if let Some(checkpoint) = &mut self.checkpoint {
             checkpoint.keep(state, Some(steps));

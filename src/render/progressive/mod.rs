@@ -6,6 +6,7 @@
 //!
 //! - With an error to reach, every step renders several **streams** of samples, each with random numbers of its own. Streams are
 //!   independent whatever the sampler, so what they differ by tells the error of their mean ([`error`]).
+//! - With intervals to state, one sample of each pixel is rendered after the other, all of them independent ([`passes`], [`crate::confidence`]).
 //! - With samples that follow the noise, steps belong to **stages** ([`schedule`]). A stage gives every pixel its share, and then some of them
 //!   more, by what their neighbours' samples show ([`allocation`]). A pixel has the first samples of one sequence, as many as that makes, and
 //!   what it shows is their plain mean: what its own samples saw never decides how many more it gets. Did it, pixels whose first samples
@@ -17,6 +18,7 @@ pub mod doublings;
 pub mod error;
 mod goal;
 mod keeping;
+mod passes;
 pub mod schedule;
 mod steps;
 mod watching;
@@ -30,6 +32,7 @@ use crate::renderer::{Batch, Observer, RenderError, RenderRequest, Renderer};
 use goal::stop_of;
 pub use goal::{Goal, Outcome, STREAMS, Stop};
 use keeping::WholeBatch;
+use passes::Passes;
 use steps::Work;
 use watching::{Watch, WatchedSink};
 
@@ -52,7 +55,7 @@ pub fn render(
 /// True if a render for this goal is one batch: nothing but time may end it before its last sample, and the
 /// device's film has all of the picture where time may.
 pub fn is_one_batch(goal: &Goal, holds_whole_film: bool) -> bool {
-    goal.target_error.is_none() && !goal.adaptive && (goal.deadline.is_none() || holds_whole_film)
+    goal.target_error.is_none() && goal.interval.is_none() && !goal.adaptive && (goal.deadline.is_none() || holds_whole_film)
 }
 
 /// Renders as [`render`] does, from the place of the checkpoint, which gets further states.
@@ -72,6 +75,9 @@ pub fn render_kept(
         Some(checkpoint) => checkpoint.resume(on_band)?,
         None => None,
     };
+    if let Some(interval) = &goal.interval {
+        return Passes { renderer, size, seed, goal, interval, observer, checkpoint }.render(resume, on_band);
+    }
     if is_one_batch(goal, renderer.holds_whole_film()) {
         let [x, y, columns, rows] = goal.region.unwrap_or([0, 0, size[0], size[1]]);
         let request = RenderRequest { rows: y..y + rows, samples: goal.samples.clone() };
@@ -125,5 +131,5 @@ fn render_iterations(
         }
     };
     let stop = stop_of(&report).unwrap_or(Stop::Samples);
-    Ok(Outcome { report, stop, error: None })
+    Ok(Outcome { report, stop, error: None, interval: None })
 }

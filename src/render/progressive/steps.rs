@@ -100,12 +100,13 @@ impl<'a> Work<'a> {
     /// The outcome of the render.
     pub fn outcome(self, stop: Stop, took: Duration) -> Outcome {
         let report = RenderReport { render_seconds: took.as_secs_f64(), interrupted: stop == Stop::Interrupted, ..self.report };
-        Outcome { report, stop, error: self.error }
+        Outcome { report, stop, error: self.error, interval: None }
     }
 
     /// Goes on from the state of an earlier render; None where it is of another picture.
     pub fn go_on_from(&mut self, saved: Saved) -> Option<()> {
-        let StepsState { place, tally, radiance, counts, row_samples, streams, looks, error, doublings, levels } = saved.steps?;
+        let StepsState { place, tally, radiance, counts, row_samples, streams, looks, error, doublings, levels, .. } =
+            saved.steps?;
         self.picture = BatchSums::with_sums(self.size, radiance, counts, row_samples)?;
         self.estimator = match self.estimator.take() {
             Some(estimator) => Some(estimator.with_sums(streams, looks)?),
@@ -337,7 +338,7 @@ impl<'a> Work<'a> {
 }
 
 /// Adds what a further batch did; the caller times the whole.
-fn add_report(sum: &mut RenderReport, batch: RenderReport) {
+pub(super) fn add_report(sum: &mut RenderReport, batch: RenderReport) {
     *sum = RenderReport {
         rays: sum.rays + batch.rays,
         samples: sum.samples + batch.samples,

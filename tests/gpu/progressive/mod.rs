@@ -36,7 +36,7 @@ fn cornell(size: [u32; 2]) -> Scene {
 }
 
 fn goal(spp: u32) -> Goal {
-    Goal { samples: 0..spp, region: None, deadline: None, target_error: None, adaptive: false }
+    Goal { samples: 0..spp, region: None, deadline: None, target_error: None, adaptive: false, interval: None }
 }
 
 /// Pixels from the top.

@@ -52,6 +52,7 @@ function tell() {
   if (state.width) facts.push(`${state.width}×${state.height}`, fewest === most ? `${fewest} spp` : `${fewest} to ${most} spp`);
   if (["layers", "rendering"].includes(state.phase) && share > 0) facts.push(`${Math.floor(100 * share)} %`);
   facts.push(`${state.seconds.toFixed(1)} s`);
+  if (state.interval) facts.push(`within ${(100 * state.interval[0]).toPrecision(3)} % with ${100 * state.interval[1]} %`);
   if (state.error) facts.push(`relMSE ${state.error[0].toExponential(1)}, below ${state.error[1].toExponential(1)} with 95 %`);
   else if (state.noise !== null) facts.push(`relMSE about ${state.noise.toExponential(1)} or less`);
   if (state.round > 1) facts.push(`render ${state.round}`);
