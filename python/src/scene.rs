@@ -10,7 +10,7 @@ use gpt::load::{LoadOptions, SceneError, builtin_names, load_toml_str, load_with
 use gpt::plan::PlanOptions;
 use gpt::render::layers::render_layers;
 use gpt::render::stats::Stats;
-use gpt::{DeviceChoice, RenderOptions, Renderer};
+use gpt::{DeviceChoice, IntervalOptions, RenderOptions, Renderer};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -102,6 +102,7 @@ impl Scene {
         time_limit: Option<f64>,
         target_error: Option<f64>,
         adaptive: bool,
+        intervals: (Option<f64>, Option<f64>, Option<String>, Option<String>),
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Rendered> {
         process::check()?;
@@ -111,12 +112,16 @@ impl Scene {
             time_limit: time_limit.map(seconds).transpose()?,
             target_error,
             adaptive,
+            interval: interval_of(intervals, &wanted)?,
             ..RenderOptions::default()
         };
         let mut scene = self.0.clone();
         scene.film.size = size.map_or(scene.film.size, |(width, height)| [width, height]);
         scene.render.spp = spp.unwrap_or(scene.render.spp);
         scene.render.seed = seed.unwrap_or(scene.render.seed);
+        if let Some(interval) = &options.interval {
+            interval.apply(&mut scene.render);
+        }
         let outcome = watched(py, progress.as_ref(), |watcher| -> Result<_, gpt::Error> {
             // First, because it finds what is wrong with the options.
             let mut renderer = Renderer::new(&scene, &options)?;
@@ -138,6 +143,33 @@ impl Scene {
 fn seconds(seconds: f64) -> PyResult<Duration> {
     let limit = Duration::try_from_secs_f64(seconds).ok().filter(|limit| !limit.is_zero());
     limit.ok_or_else(|| PyValueError::new_err("time_limit: a number of seconds above 0"))
+}
+
+/// The intervals that are asked for, by a target and as layers.
+fn interval_of(
+    (target, confidence, of, by): (Option<f64>, Option<f64>, Option<String>, Option<String>),
+    wanted: &[Layer],
+) -> PyResult<Option<IntervalOptions>> {
+    let layers = wanted.iter().any(|layer| matches!(layer, Layer::Low | Layer::High));
+    if target.is_none() && !layers {
+        let is_lonely = confidence.is_some() || of.is_some() || by.is_some();
+        let what = "confidence, interval_of and interval_by belong to target_interval, or to the layers low and high";
+        return if is_lonely { Err(PyValueError::new_err(what)) } else { Ok(None) };
+    }
+    let default = IntervalOptions::default();
+    Ok(Some(IntervalOptions {
+        target,
+        confidence: confidence.unwrap_or(default.confidence),
+        of: of.map(|name| named("interval_of", &name)).transpose()?.unwrap_or(default.of),
+        by: by.map(|name| named("interval_by", &name)).transpose()?,
+        layers,
+    }))
+}
+
+/// A choice by its name.
+fn named<T: Choice>(what: &str, name: &str) -> PyResult<T> {
+    let names = || T::NAMES.iter().map(|named| named.name).collect::<Vec<_>>().join(", ");
+    T::from_name(name).ok_or_else(|| PyValueError::new_err(format!("{what}: there is no `{name}`; there are {}", names())))
 }
 
 fn layer_of(name: &str) -> PyResult<Layer> {

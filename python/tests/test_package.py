@@ -118,6 +118,10 @@ class Rendering(unittest.TestCase):
         self.assertEqual(limited["stopped_by"], "time_limit")
         reached = self.scene.render(spp=100_000, target_error=0.01, device="cpu").stats
         self.assertEqual(reached["stopped_by"], "target_error")
+        known = self.scene.render(spp=100_000, target_interval=0.05, confidence=0.95, layers=["low", "high"], device="cpu")
+        self.assertEqual(known.stats["stopped_by"], "target_interval")
+        self.assertLessEqual(known.stats["interval"]["widest"], 0.05)
+        self.assertTrue((known.layers["Low"] <= known.pixels).all() and (known.pixels <= known.layers["High"]).all())
         self.assertLessEqual(reached["error_bound"], 0.01)
 
     def test_both_devices_agree(self):
@@ -217,7 +221,7 @@ class Files(unittest.TestCase):
         scene = gpt.Scene.from_toml(SCENE)
         with self.assertRaisesRegex(gpt.DeviceError, "Abacus"):
             scene.render(device="Abacus")
-        for wrong in ({"spp": 0}, {"size": (0, 5)}, {"layers": ["scent"]}, {"time_limit": -1}, {"target_error": 0.0}, {"device": ""}):
+        for wrong in ({"spp": 0}, {"size": (0, 5)}, {"layers": ["scent"]}, {"time_limit": -1}, {"target_error": 0.0}, {"target_interval": 0.0}, {"confidence": 0.9}, {"target_interval": 0.1, "interval_of": "rows"}, {"device": ""}):
             with self.assertRaises(ValueError, msg=str(wrong)):
                 scene.render(**wrong)
         for error in (gpt.SceneError, gpt.DeviceError):

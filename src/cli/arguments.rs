@@ -432,8 +432,8 @@ fn parse_target(text: &str) -> Result<f64, String> {
 }
 
 fn parse_share(text: &str) -> Result<f64, String> {
-    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
-    let share = number.trim().parse().ok().map(|number: f64| number * unit);
+    let (number, whole) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 100.0));
+    let share = number.trim().parse().ok().map(|number: f64| number / whole);
     share
         .filter(|share| share.is_finite() && *share > 0.0)
         .ok_or_else(|| "expected a share above 0, for example 1% or 0.01".to_owned())

@@ -5,8 +5,11 @@ use std::path::Path;
 
 use gpt::choice::Choice;
 use gpt::compare::flip::{PIXELS_PER_DEGREE, flip};
+use gpt::compare::intervals::{LargestSure, StatedIntervals, SureDifference, sure_difference};
 use gpt::compare::{Comparison, ImageView, Metric, TileSettings, compare, compare_paired};
-use gpt::output::{AtomicFile, Channels, Image, PictureKind, read_picture};
+use gpt::output::{
+    AtomicFile, CONFIDENCE_KEY, Channels, HIGH, Image, LOW, PICTURE_HIGH_KEY, PICTURE_LOW_KEY, PictureKind, read_picture,
+};
 use serde::Serialize;
 
 use super::arguments::CompareArguments;
@@ -14,7 +17,7 @@ use super::bench::command;
 use super::denoise::{BIAS_KEY, DENOISER_KEY};
 use super::difference_page::{self, PicturePair, Section, Tone};
 use super::exit::{Exit, Failure};
-use super::{outputs, terminal};
+use super::{intervals, outputs, terminal};
 
 /// Pixels along the side of the page's tiles.
 const PAGE_TILE: u32 = 8;
@@ -28,6 +31,8 @@ struct ComparisonReport<'a> {
     tolerance: f64,
     metric: Option<Metric>,
     warnings: &'a [String],
+    /// By how much they differ at least, where a picture states intervals.
+    intervals: Option<&'a SureDifference>,
     #[serde(flatten)]
     comparison: &'a Comparison,
 }
@@ -46,6 +51,7 @@ pub fn run(arguments: &CompareArguments) -> Result<Exit, Failure> {
     warnings.iter().for_each(|warning| terminal::warn(warning));
     [&arguments.picture, &arguments.reference].into_iter().for_each(|path| tell_of_denoising(path));
     let equal = comparison.within(arguments.metric, tolerance);
+    let sure = by_intervals(arguments, (&picture, &reference));
     if let Some(path) = &arguments.html {
         AtomicFile::write(path, page(arguments, (&picture, &reference), &comparison, equal)?.as_bytes())?;
     }
@@ -55,12 +61,60 @@ pub fn run(arguments: &CompareArguments) -> Result<Exit, Failure> {
             tolerance,
             metric: arguments.metric,
             warnings: &warnings,
+            intervals: sure.as_ref(),
             comparison: &comparison,
         })?;
     } else {
-        terminal::answer(&text(&comparison, arguments.metric, equal))?;
+        let told = sure.as_ref().map_or_else(String::new, in_words);
+        terminal::answer(&(told + &text(&comparison, arguments.metric, equal)))?;
     }
     Ok(if equal { Exit::Done } else { Exit::Difference })
+}
+
+/// By how much the pictures differ at least, where one of them states intervals; one that states none is taken as the truth.
+fn by_intervals(arguments: &CompareArguments, (picture, reference): (&Image, &Image)) -> Option<SureDifference> {
+    let [first, second] = [(&arguments.picture, picture), (&arguments.reference, reference)].map(|(path, image)| {
+        let file = Channels::read(path).ok()?;
+        let confidence = file.attribute(CONFIDENCE_KEY)?.parse().ok()?;
+        let mean = [ends_of_header(&file, PICTURE_LOW_KEY)?, ends_of_header(&file, PICTURE_HIGH_KEY)?];
+        let pixels = file.colours(LOW).zip(file.colours(HIGH)).filter(|(low, _)| low.len() == image.pixels.len());
+        Some(StatedIntervals { mean, pixels: pixels.map(|(low, high)| [low, high]), confidence })
+    });
+    if first.is_none() && second.is_none() {
+        return None;
+    }
+    let [first, second] = [(first, picture), (second, reference)]
+        .map(|(intervals, image)| intervals.unwrap_or_else(|| StatedIntervals::exact(&image.pixels)));
+    Some(sure_difference(picture.width, &first, &second))
+}
+
+/// Three numbers of a header, with blanks between them.
+fn ends_of_header(file: &Channels, key: &str) -> Option<[f64; 3]> {
+    let numbers: Vec<f64> = file.attribute(key)?.split(' ').map(|number| number.parse().ok()).collect::<Option<_>>()?;
+    numbers.try_into().ok()
+}
+
+fn in_words(sure: &SureDifference) -> String {
+    let confidence = intervals::whole_percent(sure.confidence);
+    let of_means = if sure.relative > 0.0 {
+        let [red, green, blue] = sure.means.map(f64::abs);
+        let share =
+            if sure.relative.is_finite() { format!(", {:.3} % where it is most", 100.0 * sure.relative) } else { String::new() };
+        format!("the means differ by at least {red:.6e}, {green:.6e}, {blue:.6e}{share} ({confidence} confidence)\n")
+    } else {
+        format!("by their intervals, the means may be equal ({confidence} confidence)\n")
+    };
+    let of_pixels = match (sure.pixels, sure.largest) {
+        (Some(pixels), Some(LargestSure { x, y, channel, at_least })) => {
+            let (most, color) = (at_least.abs(), CHANNELS[channel]);
+            format!(
+                "{pixels} pixels differ for sure, by at least {most:.6e} in {color} at column {x}, row {y} ({confidence} confidence)\n"
+            )
+        }
+        (Some(_), None) => format!("no pixel differs for sure ({confidence} confidence)\n"),
+        (None, _) => String::new(),
+    };
+    of_means + &of_pixels
 }
 
 /// The page that shows both, with the differences of tiles judged by what their pixels' differences scatter by.

@@ -1,8 +1,8 @@
 //! The intervals of a render, as the command line asks for them and is told of them.
 
 use gpt::choice::Choice;
-use gpt::confidence::sample_bound;
 use gpt::film::Layer;
+use gpt::reference::sample_bound::sample_bound;
 use gpt::{IntervalBasis, IntervalEstimate, IntervalOptions, Outcome, RenderOptions, Scene, Stop};
 
 use super::arguments::RenderArguments;
@@ -76,7 +76,7 @@ fn of_picture(interval: &IntervalEstimate) -> String {
         Some(bound) => format!(", samples being at most {:.4}", bound.into_iter().fold(0.0, f64::max)),
         None => String::new(),
     };
-    format!("mean of the picture: {}, {}, {} ({}{bound})", ends(0), ends(1), ends(2), percent(interval.confidence))
+    format!("mean of the picture: {}, {}, {} ({}{bound})", ends(0), ends(1), ends(2), whole_percent(interval.confidence))
 }
 
 fn widest(interval: &IntervalEstimate) -> String {
@@ -85,8 +85,16 @@ fn widest(interval: &IntervalEstimate) -> String {
 }
 
 fn percent(share: f64) -> String {
-    // Six digits, without those that say nothing.
-    let digits = format!("{:.6}", 100.0 * share);
+    let percent = 100.0 * share;
+    // Four digits that say something, and those before the point.
+    let decimals = (3 - percent.abs().max(1e-9).log10().floor() as i32).clamp(1, 9) as usize;
+    let digits = format!("{percent:.decimals$}");
+    format!("{} %", digits.trim_end_matches('0').trim_end_matches('.'))
+}
+
+/// A probability, of which all digits count.
+pub fn whole_percent(share: f64) -> String {
+    let digits = format!("{:.8}", 100.0 * share);
     format!("{} %", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
@@ -96,6 +104,7 @@ mod tests {
 
     #[test]
     fn shares_are_shown_without_needless_digits() {
-        assert_eq!([0.01, 0.99, 0.123_456_789, 1.0].map(percent), ["1 %", "99 %", "12.345679 %", "100 %"]);
+        assert_eq!([0.01, 0.99, 0.123_456_789, 1.0].map(percent), ["1 %", "99 %", "12.35 %", "100 %"]);
+        assert_eq!([0.99, 0.95, 0.999_99].map(whole_percent), ["99 %", "95 %", "99.999 %"]);
     }
 }

@@ -4,11 +4,13 @@
 //! - [`image_tests`]: tests with a stated level, tile by tile and as a whole.
 //! - [`hypothesis`]: Student's t, Welch's t, the z-test, and Šidák's correction for many tests at once.
 //! - [`flip`]: how different pictures look to the eye.
+//! - [`intervals`]: by how much pictures differ at least, where their pixels have intervals.
 //! - [`moments`]: mean and variance of a stream of numbers.
 
 pub mod flip;
 pub mod hypothesis;
 pub mod image_tests;
+pub mod intervals;
 pub mod metrics;
 pub mod moments;
 

@@ -76,7 +76,7 @@ mod tests {
         }
     }
 
-    /// It is within a small factor of what a normal distribution would need at a single look, √(2V·ln(1/α)).
+    /// The boundary is within a small factor of what a normal distribution would need at a single look, √(2V·ln(1/α)).
     #[test]
     fn looking_always_costs_a_small_factor() {
         let (alpha, squares): (f64, f64) = (1e-3, 1e4);

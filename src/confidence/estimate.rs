@@ -85,7 +85,7 @@ impl Unit {
     }
 }
 
-/// What the ends of intervals are made with.
+/// The means by which ends of intervals are found.
 struct Ground {
     /// The boundary of each end, of so many intervals together.
     boundary: BernsteinBoundary,
@@ -168,7 +168,7 @@ impl Ground {
         let count = unit.pixels * f64::from(sums.counted());
         for channel in 0..3 {
             let (sum, squares) = (unit.sums.sum[channel], unit.sums.squares[channel]);
-            // What lies below a prediction is no more than the prediction itself, and what lies above it no more than the bound.
+            // A sample is no farther below a prediction than the prediction is above 0, and no farther above it than the bound.
             let farthest = [unit.scale[channel], self.bound[channel]];
             let within = |scale: f64| if scale > 0.0 { scale * self.boundary.deviation(squares / (scale * scale)) } else { 0.0 };
             let [below, above] = farthest.map(within);
@@ -274,7 +274,7 @@ mod tests {
         }
         let [few, many] = [widths[0], widths[1]];
         assert!(few[0] < 0.02 && few[0] < few[1] && few[1] < few[2], "{widths:?}");
-        // Those of pixels are as yet made by the bound, whose part shrinks faster.
+        // The widths of pixels' intervals are as yet made by the bound, whose part shrinks faster.
         assert!((0..3).all(|of| (2.5..9.0).contains(&(few[of] / many[of]))), "{widths:?}");
     }
 

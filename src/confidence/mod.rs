@@ -7,16 +7,13 @@
 //!
 //! - [`sums`] keeps what intervals need of each pixel, sample by sample.
 //! - [`boundary`] says how far sums may stray from their expectation.
-//! - [`sample_bound`] derives from a scene how bright one sample can be: without such a bound no interval above zero can be promised,
-//!   for light that is rare enough has not been seen yet.
-//! - [`estimate`] makes intervals of pixels, of tiles and of the picture from these.
+//! - [`estimate`] makes intervals of pixels, of tiles and of the picture from these. Upper ends need to know how bright one sample can be, for light that
+//!   is rare enough has not been seen yet: [`crate::reference::sample_bound`] derives that from a scene.
 
 pub mod boundary;
 pub mod estimate;
 pub mod options;
-pub mod sample_bound;
 pub mod sums;
 
 pub use estimate::IntervalEstimate;
 pub use options::{IntervalBasis, IntervalGoal, IntervalOptions, IntervalScope};
-pub use sample_bound::{Unbounded, sample_bound};

@@ -2,9 +2,7 @@
 
 use gpt_scene::choices;
 
-use super::sample_bound::sample_bound;
-use crate::scene::{Guiding, PixelSampler, RenderSettings, SamplerKind, Scene};
-use crate::spectrum::Spectrum;
+use crate::scene::{Guiding, PixelSampler, RenderSettings, SamplerKind};
 
 choices! {
     /// The quantities of which each has an interval, all of them at the stated confidence together.
@@ -37,7 +35,7 @@ pub const FEWEST_SAMPLES: u32 = 16;
 /// The intervals of a render of one scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IntervalGoal {
-    /// What was asked for, with what intervals stand on.
+    /// The options, with the assumption that was settled.
     pub options: IntervalOptions,
     /// The brightest that a sample can be, by channel, where they stand on that.
     pub sample_bound: Option<[f64; 3]>,
@@ -52,7 +50,7 @@ pub struct IntervalOptions {
     /// The probability that all intervals hold, at all looks together.
     pub confidence: f64,
     pub of: IntervalScope,
-    /// None: the scene's bound, where it has one.
+    /// The assumption that was asked for. None: the scene's bound, where it has one.
     pub by: Option<IntervalBasis>,
     /// The bounds of every pixel are wanted, as layers.
     pub layers: bool,
@@ -72,13 +70,6 @@ impl IntervalOptions {
         if settings.guiding == Guiding::Auto && self.by != Some(IntervalBasis::Seen) {
             settings.guiding = Guiding::Off;
         }
-    }
-
-    /// The goal of a render of this scene: intervals stand on the bound of its samples, if it has one and nothing else was asked for.
-    pub fn goal(&self, scene: &Scene) -> IntervalGoal {
-        let bound = if self.by == Some(IntervalBasis::Seen) { None } else { sample_bound(scene).ok() };
-        let by = if bound.is_some() { IntervalBasis::Bound } else { IntervalBasis::Seen };
-        IntervalGoal { options: Self { by: Some(by), ..*self }, sample_bound: bound.map(Spectrum::to_rgb) }
     }
 
     /// A number that is out of its range, in a sentence.

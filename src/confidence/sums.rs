@@ -11,9 +11,9 @@ const ROUNDING: f64 = 1e-4;
 #[derive(Debug, Clone, Copy, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct PixelSums {
-    /// Of the first samples.
+    /// Sum of the first samples.
     pub warm_up: [f64; 3],
-    /// Of the later ones.
+    /// Sum of the later ones.
     pub sum: [f64; 3],
     /// Squared deviations of the later ones from what those before them predicted.
     pub squares: [f64; 3],

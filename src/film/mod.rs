@@ -35,6 +35,8 @@ pub struct Band {
     /// The ends of each pixel's interval, same order; empty where none was asked for.
     pub low: Vec<[f32; 3]>,
     pub high: Vec<[f32; 3]>,
+    /// The low and the high end of the interval of the whole picture's mean, where it was asked for.
+    pub picture_ends: Option<[[f64; 3]; 2]>,
 }
 
 impl Band {

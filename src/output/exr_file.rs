@@ -15,7 +15,7 @@ use exr::meta::{BlockDescription, Headers, MetaData};
 use exr::prelude::{Compression, Vec2, f16};
 
 use super::layers::{LayerChannel, LayerPicture, LayerSource, SAMPLE_COUNT, sample_variance};
-use super::provenance::{self, LAYERS_KEY};
+use super::provenance::{self, LAYERS_KEY, PICTURE_HIGH_KEY, PICTURE_LOW_KEY};
 use super::rows::{Completeness, Row, Rows};
 use super::spec::{ExrCompression, PartSpec, PictureSpec};
 use crate::film::{Layer, variance};
@@ -35,6 +35,7 @@ const PREAMBLE_BYTES: u64 = 8;
 pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &PictureSpec) -> Result<(), String> {
     let have_counts = rows.have_counts().map_err(|_| "the render broke off".to_owned())?;
     let mut first = header(spec, spec.samples_wanted(), Completeness::Finished, have_counts);
+    state_picture_ends(&mut first, rows.picture_ends());
     state_digest(&mut first, &open_exr::placeholder());
     let headers: Headers = [first].into_iter().collect();
     let channels = channels(spec, have_counts);
@@ -48,11 +49,20 @@ pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &Pictu
     // Numbers and digests have a fixed length, so it is written again in place, sorted: equal pictures are equal files.
     let completeness = rows.wait_for_finish().map_err(|_| "the render broke off".to_owned())?;
     let mut last = header(spec, rows.fewest_samples(), completeness, have_counts);
+    state_picture_ends(&mut last, rows.picture_ends());
     let digest = digests.finish(&last);
     state_digest(&mut last, &digest);
     writer.seek(SeekFrom::Start(PREAMBLE_BYTES)).map_err(|error| error.to_string())?;
     writer.write_all(&sorted_bytes(&last).map_err(|error| error.to_string())?).map_err(|error| error.to_string())?;
     writer.flush().map_err(|error| error.to_string())
+}
+
+/// Names the interval of the picture's mean, where it is known.
+fn state_picture_ends(header: &mut Header, ends: Option<[[f64; 3]; 2]>) {
+    for (key, end) in [PICTURE_LOW_KEY, PICTURE_HIGH_KEY].into_iter().zip(ends.into_iter().flatten()) {
+        let text = end.map(|number| number.to_string()).join(" ");
+        header.own_attributes.other.insert(Text::from(key), AttributeValue::Text(header_text(&text)));
+    }
 }
 
 fn state_digest(header: &mut Header, digest: &str) {

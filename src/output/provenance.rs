@@ -48,6 +48,9 @@ pub(super) const BROKEN_OFF_KEY: &str = "gpt:brokenOff";
 
 /// Key of the probability that all intervals of pixels hold.
 pub const CONFIDENCE_KEY: &str = "gpt:confidence";
+/// Keys of the ends of the interval of the picture's mean: red, green and blue.
+pub const PICTURE_LOW_KEY: &str = "gpt:pictureLow";
+pub const PICTURE_HIGH_KEY: &str = "gpt:pictureHigh";
 /// Key of the assumption that they stand on.
 pub const BASIS_KEY: &str = "gpt:intervalBy";
 

@@ -29,6 +29,7 @@ pub(super) struct Rows {
     finished: Option<Completeness>,
     next_row: u32,
     fewest_samples: u32,
+    picture_ends: Option<[[f64; 3]; 2]>,
     blank: Vec<[f32; 3]>,
 }
 
@@ -69,6 +70,7 @@ impl Rows {
             finished: None,
             next_row: 0,
             fewest_samples: u32::MAX,
+            picture_ends: None,
             blank: vec![[0.0; 3]; width as usize],
         }
     }
@@ -76,7 +78,13 @@ impl Rows {
     /// Waits for the first band. Whether it says how many samples each pixel has; then all do.
     pub(super) fn have_counts(&mut self) -> Result<bool, Abandoned> {
         self.reach(0)?;
+        self.picture_ends = self.band.picture_ends;
         Ok(self.band.counts.is_some())
+    }
+
+    /// The ends of the interval of the picture's mean, of which the first band knows.
+    pub(super) fn picture_ends(&self) -> Option<[[f64; 3]; 2]> {
+        self.picture_ends
     }
 
     /// The next row.

@@ -21,6 +21,7 @@ mod medium;
 mod phase;
 pub mod roulette;
 pub mod rounding;
+pub mod sample_bound;
 pub mod scatterer;
 pub mod trace;
 mod tracking;

@@ -11,6 +11,7 @@ pub mod cryptomatte;
 pub mod error_estimate;
 mod free_memory;
 pub mod image;
+pub mod intervals;
 pub mod layers;
 pub mod options;
 pub mod progressive;

@@ -5,9 +5,10 @@ use std::time::Duration;
 
 use super::progressive::STREAMS;
 use crate::confidence::options::FEWEST_SAMPLES;
-use crate::confidence::{IntervalBasis, IntervalOptions, sample_bound};
+use crate::confidence::{IntervalBasis, IntervalOptions};
 use crate::error::Error;
 use crate::plan::PlanOptions;
+use crate::reference::sample_bound::sample_bound;
 use crate::renderer::DeviceChoice;
 use crate::scene::Scene;
 use crate::scene::settings::MOST_SAMPLES;

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use super::checkpoint::{Checkpoint, Identity};
 use super::free_memory::FreeMemory;
 use super::image::Image;
+use super::intervals::interval_goal;
 use super::options::RenderOptions;
 use super::progressive::{self, Goal, Outcome};
 use crate::confidence::IntervalGoal;
@@ -72,7 +73,7 @@ impl Renderer {
         let provenance = Self::provenance_with(&bulk, scene, options, renderer.device());
         let film = scene.film.size;
         let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
-        let interval = options.interval.map(|interval| interval.goal(scene));
+        let interval = options.interval.map(|interval| interval_goal(scene, &interval));
         Ok(Self { renderer, notice, options: options.clone(), film, size, provenance, bulk, interval, memory: FreeMemory })
     }
 
@@ -89,7 +90,7 @@ impl Renderer {
         let change = if same_meshes && scene.shapes_stand_as_in(before) { Change::Camera } else { Change::Shapes };
         let renderer = renderer.with_scene(scene, change)?;
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
-        let interval = options.interval.map(|interval| interval.goal(scene));
+        let interval = options.interval.map(|interval| interval_goal(scene, &interval));
         Ok(Self { renderer, notice, options, film, size, provenance, bulk, interval, memory })
     }
 
@@ -114,7 +115,7 @@ impl Renderer {
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
         let film = scene.film.size;
         let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
-        let interval = options.interval.map(|interval| interval.goal(scene));
+        let interval = options.interval.map(|interval| interval_goal(scene, &interval));
         Ok(Self { renderer, notice, options, film, size, provenance, bulk, interval, memory })
     }
 
@@ -142,7 +143,7 @@ impl Renderer {
             first_sample: options.first_sample,
             target_error: options.target_error,
             adaptive: options.adaptive,
-            interval: options.interval.map(|interval| interval.goal(scene).options),
+            interval: options.interval.map(|interval| interval_goal(scene, &interval).options),
             device: device.to_owned(),
         }
     }

@@ -76,3 +76,61 @@ fn wishes_that_cannot_be_are_refused() {
     }
     assert_eq!(place.files(), ["scene.toml"]);
 }
+
+/// The answer of a command that finds a difference.
+fn differs(place: &Workplace, arguments: &str) -> String {
+    let output = place.run(arguments);
+    assert_eq!(output.status.code(), Some(7), "{}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+#[test]
+fn intervals_become_as_narrow_as_was_asked_for() {
+    let place = Workplace::new();
+    let render = "render scene.toml --device cpu --spp 4096 --target-interval 4% --confidence 95%";
+    let said = place.expect(0, &format!("{render} --aov low,high -o a.exr --stats s.json"));
+    assert!(said.contains("when the intervals were narrow enough") && said.contains("mean of the picture: "), "{said}");
+    let stats = place.stats("s.json");
+    assert_eq!((&stats["stopped_by"], &stats["target_interval"]), (&"target_interval".into(), &0.04.into()));
+    assert_eq!((&stats["sampler"], &stats["interval"]["confidence"]), (&"independent".into(), &0.95.into()));
+    assert!(stats["interval"]["widest"].as_f64().expect("a number") <= 0.04, "{stats}");
+    // Its picture is that of as many independent samples.
+    let samples = stats["spp_done"].as_u64().expect("a number");
+    place.expect(0, &format!("render scene.toml --device cpu --spp {samples} --sampler independent -o b.exr"));
+    place.expect(0, "compare a.exr b.exr --tolerance 1e-5");
+
+    // Another picture of the scene may be equal to it; one that is darker for sure is not. The truth states no intervals and is taken as it is.
+    place.expect(0, "render scene.toml --device cpu --spp 1024 --seed 5 -o truth.exr");
+    let said = differs(&place, "compare a.exr truth.exr");
+    assert!(said.contains("the means may be equal (95 % confidence)") && said.contains("no pixel differs for sure"), "{said}");
+    place.expect(0, &format!("{render} --max-depth 1 -o dark.exr -q"));
+    let said = differs(&place, "compare a.exr dark.exr");
+    assert!(said.contains("the means differ by at least") && said.contains("(90 % confidence)"), "{said}");
+    assert!(!said.contains("for sure"), "the darker one states no interval of pixels: {said}");
+    let report: serde_json::Value = serde_json::from_str(&differs(&place, "compare a.exr truth.exr --json")).expect("JSON");
+    assert_eq!((&report["intervals"]["pixels"], &report["intervals"]["relative"]), (&0.into(), &0.0.into()));
+
+    let said =
+        place.expect(0, "render scene.toml --device cpu --spp 32 --target-interval 0.0001% --interval-of pixels -o c.exr -q");
+    assert!(said.contains("the intervals did not become as narrow as 0.0001 %: pixels"), "{said}");
+}
+
+#[test]
+fn intervals_that_cannot_be_are_refused() {
+    let place = Workplace::new();
+    for (flags, why) in [
+        ("--confidence 99%", "--target-interval"),
+        ("--target-interval 1% --confidence 20%", "from 50% to below 100%"),
+        ("--target-interval 1% --adaptive", "--adaptive"),
+        ("--target-interval 1% --target-error 0.1", "--target-error"),
+        ("--target-interval 1% --crop 0,0,4,4", "--crop"),
+        ("--aov low --crop 0,0,4,4", "whole picture"),
+        ("--target-interval 1% --spp 4", "at least 16 samples"),
+        ("--target-interval 1% --spp 64 --max-depth 0 --interval-by bound", "max_depth"),
+        ("--target-interval 0%", "above 0"),
+    ] {
+        let said = place.expect(2, &format!("render scene.toml --device cpu -o a.exr {flags}"));
+        assert!(said.contains(why), "{flags}: {said}");
+    }
+    assert_eq!(place.files(), ["scene.toml"]);
+}

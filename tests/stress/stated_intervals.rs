@@ -7,6 +7,7 @@ use std::sync::Mutex;
 
 use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
+use gpt::render::intervals::interval_goal;
 use gpt::render::progressive::{self, Goal, Outcome};
 use gpt::renderer::{Observer, Silent};
 use gpt::scene::SamplerKind;
@@ -111,7 +112,7 @@ fn measure((name, light_is_rare): (&'static str, bool), seeds: u32, truth_sample
         IntervalOptions { confidence: CONFIDENCE, of: IntervalScope::Picture, layers: true, ..IntervalOptions::default() };
     options.apply(&mut independent.render);
     assert_eq!(independent.render.sampler, SamplerKind::Independent);
-    let interval = options.goal(&independent);
+    let interval = interval_goal(&independent, &options);
     let mut renderer = ReferenceRenderer::new(&independent).expect("the scene fits");
     let (mut missed, mut half_width) = ([0; 2], 0.0);
     for seed in 0..seeds {

@@ -140,18 +140,25 @@ class Scene:
         time_limit: Optional[float] = None,
         target_error: Optional[float] = None,
         adaptive: bool = False,
+        target_interval: Optional[float] = None,
+        confidence: Optional[float] = None,
+        interval_of: Optional[str] = None,
+        interval_by: Optional[str] = None,
         progress: Optional[Callable[[int, int], object]] = None,
     ) -> Picture:
         """Renders the scene. Other threads of Python run meanwhile, and Ctrl-C ends it.
 
         `spp`, `size` and `seed` stand for what the scene says. `device`: auto, gpu, cpu, or a part of an adapter's name. `layers`: albedo, normal,
-        position, depth, alpha, variance, samples, direct, indirect, emission, ids, cryptomatte. `time_limit` in seconds. `target_error`: the
-        relative mean squared error to reach, with `spp` as the most it may take. `adaptive`: more samples where the noise is. `progress` is called
+        position, depth, alpha, variance, samples, low, high, direct, indirect, emission, ids, cryptomatte. `time_limit` in seconds. `target_error`: the
+        relative mean squared error to reach, with `spp` as the most it may take. `adaptive`: more samples where the noise is. `target_interval`: the
+        share to which the truth is to be known, at this `confidence` (0.99), of the picture's mean, of its tiles or its pixels (`interval_of`); upper
+        ends stand on a bound of samples or on what was seen (`interval_by`). `progress` is called
         with the samples that are done and those that are wanted, of each layer and then of the picture, up to ten times a second and at the end;
         what it raises ends the render.
         """
         names = [layers] if isinstance(layers, str) else list(layers)
-        made = self._native.render(spp, size, seed, device, names, time_limit, target_error, adaptive, progress)
+        intervals = (target_interval, confidence, interval_of, interval_by)
+        made = self._native.render(spp, size, seed, device, names, time_limit, target_error, adaptive, intervals, progress)
         return Picture(made.picture, {name: np.asarray(layer) for name, layer in made.layers.items()}, json.loads(made.stats))
 
     def __repr__(self) -> str:

@@ -57,6 +57,7 @@ class Scene:
         time_limit: Optional[float],
         target_error: Optional[float],
         adaptive: bool,
+        intervals: Tuple[Optional[float], Optional[float], Optional[str], Optional[str]],
         progress: Optional[Callable[[int, int], object]],
     ) -> Rendered: ...
 

@@ -4,6 +4,7 @@ use std::io;
 use std::time::Instant;
 
 use super::goal::{Goal, Outcome, Stop, stop_of};
+use super::steps::add_report;
 use crate::confidence::estimate::Estimator;
 use crate::confidence::sums::{IntervalSums, WARM_UP};
 use crate::confidence::{IntervalGoal, IntervalScope};
@@ -109,12 +110,15 @@ impl Passes<'_> {
                 }
                 Ok(())
             })?;
-            let ended = stop_of(&of_pass);
-            super::steps::add_report(report, of_pass);
-            if let Some(stop) = ended {
-                // Pixels without the sample would differ from those with it in when they were looked at.
+            if let Some(stop) = stop_of(&of_pass) {
+                // Pixels without the sample would differ from those with it in when they were looked at, so it does not count.
+                self.keep(sums, report, true);
+                if sums.samples() == 0 {
+                    add_report(report, of_pass);
+                }
                 return Ok(stop);
             }
+            add_report(report, of_pass);
             sums.add(&pixels);
             if self.observer.wants_rows() {
                 self.deliver_means(sums, &mut |band| {
@@ -160,8 +164,10 @@ impl Passes<'_> {
         estimator: &Estimator,
         on_band: &mut dyn FnMut(Band) -> io::Result<()>,
     ) -> io::Result<()> {
+        let found = estimator.look(sums);
+        let picture_ends = Some([found.picture_low, found.picture_high]);
         if !self.interval.options.layers {
-            return self.deliver_means(sums, on_band);
+            return self.deliver_means(sums, &mut |band| on_band(Band { picture_ends, ..band }));
         }
         let ends = estimator.pixels(sums);
         self.deliver_means(sums, &mut |band| {
@@ -169,7 +175,7 @@ impl Passes<'_> {
             let ends = &ends[first..first + band.mean.len()];
             let low = ends.iter().map(|[low, _]| low.map(rounded_down)).collect();
             let high = ends.iter().map(|[_, high]| high.map(rounded_up)).collect();
-            on_band(Band { low, high, ..band })
+            on_band(Band { low, high, picture_ends, ..band })
         })
     }
 

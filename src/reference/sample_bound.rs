@@ -91,7 +91,7 @@ fn paths(scene: &Scene, gain: f64, share_of_light_sample: f64) -> f64 {
         sum += throughput * gain * share_of_light_sample * samples;
         throughput *= gain;
         if first_roulette.is_some_and(|first| depth >= first) {
-            // What roulette lets go on is divided by its chance, the throughput or the largest there is.
+            // Roulette divides by its chance, which is the throughput or the largest that there is.
             throughput = (throughput / roulette::survival(Spectrum::WHITE, depth)).max(1.0);
         }
     }
@@ -179,11 +179,11 @@ fn lobe_of(scene: &Scene, material: &Material) -> Result<Lobe, Unbounded> {
             let along_normal = match fresnel {
                 ConductorFresnel::Complex { eta, k } => conductor_reflectance(1.0, *eta, *k),
                 ConductorFresnel::Reflectance(ColorInput::Constant(reflectance)) => *reflectance,
-                // Where it is black, grazing light outshines what the lobe is chosen by without a bound.
+                // A texture may be black somewhere; grazing light then outshines the lobe's weight without a bound.
                 ConductorFresnel::Reflectance(_) => Spectrum::BLACK,
             };
             let tint = of(specular_reflectance);
-            // It reflects all light at grazing angles, and is chosen by what it reflects along the normal.
+            // Metal reflects all light at grazing angles, and is chosen by what it reflects along the normal.
             Ok(Lobe { weight: tint, alone: tint, excess: 1.0 / along_normal.min_component() })
         }
         MaterialKind::Glass { reflectance, transmittance, film: None, dispersion: None, .. } => {
