@@ -22,6 +22,7 @@ use super::film::FilmArguments;
 use super::frames::{FrameArguments, FrameList, parse_frame};
 use super::installing_arguments::{CompletionsArguments, ManArguments};
 use super::machine_progress::ProgressFormat;
+use super::measure::MeasureArguments;
 use super::model_arguments::ModelArguments;
 use super::picture_arguments::{DisplayArguments, ExrArguments};
 use super::referee::RefereeArguments;
@@ -62,6 +63,8 @@ pub enum Command {
     Referee(RefereeArguments),
     /// Measure run time against error, speed, and what features cost; writes JSON, CSV and a page to look at
     Bench(Box<BenchArguments>),
+    /// Measure light at the meters of a scene, in W/m² and lux, with intervals that hold the truth
+    Measure(Box<MeasureArguments>),
     /// Say whether a scene is valid, all that is wrong with it, what is in it, and what memory and time it takes
     Check(CheckArguments),
     /// Write a scene of another program as a scene file that can be edited and renders the same picture
@@ -431,7 +434,7 @@ fn parse_target(text: &str) -> Result<f64, String> {
     target.ok_or_else(|| "expected a relative mean squared error above 0, for example 0.001".to_owned())
 }
 
-fn parse_share(text: &str) -> Result<f64, String> {
+pub fn parse_share(text: &str) -> Result<f64, String> {
     let (number, whole) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 100.0));
     let share = number.trim().parse().ok().map(|number: f64| number / whole);
     share
@@ -439,7 +442,7 @@ fn parse_share(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a share above 0, for example 1% or 0.01".to_owned())
 }
 
-fn parse_confidence(text: &str) -> Result<f64, String> {
+pub fn parse_confidence(text: &str) -> Result<f64, String> {
     let share = parse_share(text).ok().filter(|share| (0.5..1.0).contains(share));
     share.ok_or_else(|| "expected a probability from 50% to below 100%, for example 99%".to_owned())
 }

@@ -126,6 +126,20 @@ impl From<BenchError> for Failure {
     }
 }
 
+impl From<gpt::Error> for Failure {
+    fn from(error: gpt::Error) -> Self {
+        match error {
+            gpt::Error::Scene(error) => Self::Scene(error),
+            gpt::Error::InvalidScene(message) => Self::BadScene(message),
+            gpt::Error::Options(message) => Self::usage(message),
+            gpt::Error::NoDevice(message) => Self::Render(RenderError::NoDevice(message)),
+            gpt::Error::DoesNotFit(message) => Self::Render(RenderError::DoesNotFit(message)),
+            gpt::Error::DeviceLost(message) => Self::Render(RenderError::DeviceLost(message)),
+            other => Self::Other(other.to_string()),
+        }
+    }
+}
+
 impl From<&Failure> for Exit {
     fn from(failure: &Failure) -> Self {
         match failure {

@@ -22,6 +22,7 @@ mod interrupt;
 mod intervals;
 mod layers;
 mod machine_progress;
+mod measure;
 mod merge;
 mod model_arguments;
 mod outputs;
@@ -108,6 +109,7 @@ pub fn run() -> ExitCode {
         Command::Referee(arguments) => referee::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments, &typed),
         Command::Bench(arguments) => bench::run(&arguments),
+        Command::Measure(arguments) => measure::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),

@@ -62,8 +62,7 @@ impl IntervalSums {
         let (is_warm_up, warm_mean) = (before < WARM_UP, self.warm_mean);
         let brightest = self.pixels.par_iter_mut().zip(samples).with_min_len(1024).map(|(pixel, sample)| {
             let sample = sample.map(f64::from);
-            for channel in 0..3 {
-                let value = sample[channel];
+            for (channel, value) in sample.into_iter().enumerate() {
                 if is_warm_up {
                     pixel.warm_up[channel] += value;
                 } else {

@@ -21,7 +21,7 @@ use crate::reference::bsdf::conductor_reflectance;
 use crate::reference::roulette;
 use crate::sampling::mis::Heuristic;
 use crate::scene::{
-    ChannelInput, ColorInput, ConductorFresnel, Environment, EnvironmentRadiance, Estimator, Geometry, Guiding,
+    BlendWeight, ChannelInput, ColorInput, ConductorFresnel, Environment, EnvironmentRadiance, Estimator, Geometry, Guiding,
     HemisphereSampling, Light, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, Scene, Shape,
 };
 use crate::spectrum::Spectrum;
@@ -124,7 +124,9 @@ fn brightest_light(scene: &Scene) -> Result<Spectrum, Unbounded> {
 
 /// The most by which f·|cosθ| exceeds the density of a surface's directions.
 fn largest_gain(scene: &Scene) -> Result<f64, Unbounded> {
-    let lobes: Vec<Lobe> = scene.materials.iter().map(|material| lobe_of(scene, material)).collect::<Result<_, _>>()?;
+    let of_camera = only_for_camera(scene);
+    let lobe = |(id, material): (usize, &Material)| if of_camera[id] { Ok(Lobe::default()) } else { lobe_of(scene, material) };
+    let lobes: Vec<Lobe> = scene.materials.iter().enumerate().map(lobe).collect::<Result<_, _>>()?;
     glass_is_closed(scene)?;
     let mut gain = lobes.iter().map(|lobe| lobe.alone).fold(0.0, f64::max);
     for material in scene.materials.iter().filter(|material| material.is_blend()) {
@@ -134,6 +136,21 @@ fn largest_gain(scene: &Scene) -> Result<f64, Unbounded> {
         gain = f64::max(gain, most(|lobe| lobe.weight) * most(|lobe| lobe.excess));
     }
     Ok(gain)
+}
+
+/// For each material, true of one that lets paths through and is in nothing but blends that the camera alone sees the other part of. Paths go through
+/// such blends without a trace, but for the camera's first ray, which meets the other part.
+fn only_for_camera(scene: &Scene) -> Vec<bool> {
+    let mut found: Vec<bool> = scene.materials.iter().map(Material::is_nothing).collect();
+    for material in &scene.materials {
+        match &material.kind {
+            MaterialKind::Blend { weight: BlendWeight::Camera, materials: [first, _] } => found[*first] = false,
+            _ => material.components().iter().for_each(|&part| found[part] = false),
+        }
+    }
+    let shapes = scene.shapes.iter().chain(scene.groups.iter().flat_map(|group| &group.shapes));
+    shapes.flat_map(Shape::materials).for_each(|material| found[material] = false);
+    found
 }
 
 /// The materials that a blend is made of, at any depth, and that are no blends.

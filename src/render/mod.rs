@@ -13,6 +13,7 @@ mod free_memory;
 pub mod image;
 pub mod intervals;
 pub mod layers;
+pub mod measure;
 pub mod options;
 pub mod progressive;
 #[doc(hidden)]

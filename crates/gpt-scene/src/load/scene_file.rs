@@ -99,7 +99,7 @@ fn expand(document: &Document<'_>, file: &mut SceneFile, folder: &Path, access: 
         description.prefix_names(&format!("{}/", prefix(&imports, index)));
         replace_materials(document, entry, &format!("{}/", prefix(&imports, index)), &mut description)?;
         imported.warnings.extend(description.warnings(&entry.file.value, access.strict)?);
-        let SceneFile { camera, node, texture, medium, material, shape, group, instance, light, .. } = description.file;
+        let SceneFile { camera, node, texture, medium, material, shape, group, instance, light, meter, .. } = description.file;
         file.camera = file.camera.take().or(camera);
         file.node.extend(node);
         file.texture.extend(texture);
@@ -109,6 +109,7 @@ fn expand(document: &Document<'_>, file: &mut SceneFile, folder: &Path, access: 
         file.group.extend(group);
         file.instance.extend(instance);
         file.light.extend(light);
+        file.meter.extend(meter);
         imported.report.append(description.report);
     }
     Ok(imported)

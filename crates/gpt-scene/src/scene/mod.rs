@@ -23,6 +23,7 @@ pub mod material;
 pub mod media;
 pub mod medium;
 pub mod medium_grids;
+mod meter;
 mod model;
 pub mod motion;
 mod placed_groups;
@@ -58,6 +59,7 @@ pub use material::{
 pub use media::{Filling, Media};
 pub use medium::{Medium, MediumId, Phase, PhaseKind, PhaseLobe};
 pub use medium_grids::{GridsOfMedium, MediumGrids};
+pub use meter::{LUMEN_PER_WATT, Meter, MeterKind};
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{

@@ -11,6 +11,7 @@ use super::instance::{Group, Instances};
 use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{Material, MaterialId, MaterialKind};
 use super::medium::{Medium, MediumId};
+use super::meter::Meter;
 use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
 use super::sources::Sources;
@@ -56,6 +57,9 @@ pub struct Scene {
     /// Lights that are not surfaces. Surfaces emit through their material.
     #[doc(hidden)]
     pub lights: Vec<Light>,
+    /// Places where light is measured.
+    #[doc(hidden)]
+    pub meters: Vec<Meter>,
     /// Parts that could not be taken as written and were replaced or left out, in sentences that name the
     /// file.
     pub warnings: Vec<String>,

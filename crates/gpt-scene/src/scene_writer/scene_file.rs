@@ -5,7 +5,7 @@ use std::path::Path;
 use super::needed::Needed;
 use super::{animation, material, settings, shape, texture};
 use crate::load::file::writer::{Names, SideFiles, Writer, line, text as quoted};
-use crate::load::file::{FORMAT_VERSION, write_light, write_medium};
+use crate::load::file::{FORMAT_VERSION, write_light, write_medium, write_meter};
 use crate::scene::Scene;
 
 /// The text of the scene file that would lie at `path`. Pictures that cannot be read are named, unless colours are to be written in their place.
@@ -53,6 +53,9 @@ pub fn scene_text(scene: &Scene, path: &Path, names_unreadable: bool) -> (String
         text.push_str(&format!("\n[[light]]\n{}{keys}", line("type", &quoted(light.kind_name()))));
         let tracks = animation.lights.iter().filter(|track| track.light == index);
         tracks.for_each(|track| text.push_str(&animation::light(track, light, &writer.nodes)));
+    }
+    for meter in &scene.meters {
+        text.push_str(&write_meter(meter, &writer));
     }
     (text, writer.files)
 }

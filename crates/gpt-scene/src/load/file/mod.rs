@@ -12,6 +12,7 @@ pub(super) mod keyframes;
 pub(super) mod light;
 pub(super) mod material;
 pub mod medium;
+pub(super) mod meter;
 mod nested;
 pub(super) mod node;
 mod place_file;
@@ -34,6 +35,7 @@ pub use light::{examples as light_examples, examples_of as light_examples_of, st
 pub use material::{EXAMPLE_PARTS, example_materials, examples as material_examples};
 pub(crate) use material::{metal_symbol, write_kind};
 pub(crate) use medium::write as write_medium;
+pub(crate) use meter::write as write_meter;
 pub(crate) use place_file::{place_rows, write_places};
 pub(super) use resolve::{resolve, resolve_model, resolve_transform};
 pub use schema::{json_schema, make_json_schema};

@@ -37,6 +37,7 @@ impl Description {
             move_point(map, &mut camera.look_at.value)?;
             camera.up.as_mut().map_or(Ok(()), |up| turn(map, &mut up.value))?;
         }
+        self.file.meter.iter_mut().try_for_each(|meter| meter.value.transform_by(map))?;
         let upright = turn_about_y(map);
         for light in &mut self.file.light {
             match &mut light.value {
@@ -184,6 +185,10 @@ impl Description {
         if let Some(camera) = &mut self.file.camera {
             add_to(&mut camera.node);
             add_to(&mut camera.medium);
+        }
+        for meter in &mut self.file.meter {
+            add(&mut meter.value.name_mut().value);
+            meter.value.medium_mut().into_iter().for_each(add_to);
         }
         for light in &mut self.file.light {
             light.value.node_mut().into_iter().for_each(add_to);

@@ -17,6 +17,7 @@ mod media;
 mod mesh_file;
 mod met_media;
 mod metals;
+mod meter;
 mod nesting;
 mod number;
 mod parameters;
@@ -103,6 +104,9 @@ impl Converter<'_> {
         if let Some(sensor) = &sensor {
             self.sensor(sensor)?;
         }
+        for meter in root.children_of("sensor").into_iter().filter(|sensor| meter::is_meter(sensor)) {
+            self.meter(meter)?;
+        }
         self.read_side_by_side(root);
         self.count_copies(root);
         for child in &root.children {
@@ -127,7 +131,8 @@ impl Converter<'_> {
     }
 
     fn choose_sensor(&self, root: &Rc<Plugin>, options: &Options) -> Result<Option<Rc<Plugin>>, SceneError> {
-        let sensors = root.children_of("sensor");
+        let sensors: Vec<&Rc<Plugin>> =
+            root.children_of("sensor").into_iter().filter(|sensor| !meter::is_meter(sensor)).collect();
         let Some(wanted) = &options.camera else { return Ok(sensors.first().map(|sensor| (*sensor).clone())) };
         let ids: Vec<&str> = sensors.iter().map(|sensor| sensor.id.as_str()).filter(|id| !id.is_empty()).collect();
         match sensors.iter().find(|sensor| sensor.id == *wanted) {

@@ -145,7 +145,7 @@ impl Converter<'_> {
             return Err(too_many_shapes(&plugin.place));
         }
         self.scene.file.shape.push(plugin.at().at(shape));
-        Ok(())
+        self.meters_on(plugin, around * own)
     }
 
     /// The geometry and the transform that is left; None where there is nothing to render.

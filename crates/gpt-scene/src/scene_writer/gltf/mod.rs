@@ -89,6 +89,9 @@ struct Writer<'w> {
 
 impl Writer<'_> {
     fn all(&mut self) {
+        for index in 0..self.scene.meters.len() {
+            self.drop("meter", &format!("meter[{index}]"), "it is not written");
+        }
         self.report_settings();
         self.camera();
         self.shapes();

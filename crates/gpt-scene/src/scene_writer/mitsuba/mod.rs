@@ -22,7 +22,7 @@ use super::surroundings::{Surroundings, has_media};
 use super::written::WrittenScene;
 use crate::load::SceneError;
 use crate::load::file::writer::SideFiles;
-use crate::scene::Scene;
+use crate::scene::{MeterKind, Scene};
 
 /// A scene as one of Mitsuba that is to be written to `target`; meshes and pictures that come from no file lie in the folder `NAME.files` beside
 /// it. `name` is how reports call the scene.
@@ -56,6 +56,7 @@ impl Writer<'_> {
         self.integrator();
         self.media();
         self.sensor();
+        self.meters();
         for material in self.parts_first().into_iter().map(Keys::of) {
             let place = self.material(&material)?;
             self.drop_rest(&material, &place);
@@ -77,6 +78,25 @@ impl Writer<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Meters that need no surface to stand on; one of irradiance would hide light from the rest of the scene.
+    fn meters(&mut self) {
+        for (index, meter) in self.original.meters.iter().enumerate() {
+            let (kind, position, direction) = match meter.kind {
+                MeterKind::Radiance { position, direction } => ("radiancemeter", position, direction),
+                MeterKind::Distant { direction, target, size: 0.0 } => ("distant", target, direction),
+                _ => {
+                    self.drop("meter", &format!("meter[{index}]"), "it is not written");
+                    continue;
+                }
+            };
+            let place = xml::look_at(position, position + direction, direction.any_orthonormal_vector());
+            let film = Element::new("film", "hdrfilm").integer("width", 1).integer("height", 1).string("pixel_format", "rgb");
+            let sensor = Element::new("sensor", kind).transform("to_world", &place);
+            let sensor = if kind == "distant" { sensor.point("ray_target", position) } else { sensor };
+            self.xml.push(sensor.with(film.with(Element::new("rfilter", "box"))));
+        }
     }
 
     fn drop(&mut self, what: &str, place: &str, instead: &str) {

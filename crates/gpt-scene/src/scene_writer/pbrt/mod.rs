@@ -89,6 +89,9 @@ impl Writer<'_> {
     fn all(&mut self) {
         self.line("# A scene of pbrt-v4: https://pbrt.org".to_owned());
         self.settings();
+        for index in 0..self.scene.meters.len() {
+            self.drop("meter", &format!("meter[{index}]"), "it is not written");
+        }
         self.media();
         self.camera();
         self.line(String::new());

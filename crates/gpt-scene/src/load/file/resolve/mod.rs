@@ -53,6 +53,7 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
         resolver.instances(&file.instance, &names, &groups);
     }
     resolver.lights(&file.light);
+    resolver.meters(&file.meter);
     resolver.finish()
 }
 

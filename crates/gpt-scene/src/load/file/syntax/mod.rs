@@ -23,6 +23,7 @@ use super::keyframes::{AnimationTable, CameraKeyEntry, InterpolationName};
 use super::light::LightEntry;
 use super::material::MaterialEntry;
 use super::medium::MediumEntry;
+use super::meter::MeterEntry;
 use super::node::NodeEntry;
 use super::shape::ShapeEntry;
 use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
@@ -63,6 +64,8 @@ pub struct SceneFile {
     pub instance: Vec<Located<InstanceEntry>>,
     #[serde(default)]
     pub light: Vec<Located<LightEntry>>,
+    #[serde(default)]
+    pub meter: Vec<Located<MeterEntry>>,
     #[serde(default)]
     pub import: Vec<ImportEntry>,
 }

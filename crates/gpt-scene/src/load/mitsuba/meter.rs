@@ -1,0 +1,110 @@
+//! Sensors that measure a number instead of taking a picture.
+
+use std::rc::Rc;
+
+use glam::{DAffine3, DVec3};
+
+use super::converter::Converter;
+use super::plugin::Plugin;
+use crate::load::error::SceneError;
+use crate::load::file::meter::{DistantKeys, IrradianceKeys, MeterEntry, RadianceKeys};
+use crate::load::file::value::{Exactly, Vector};
+
+/// True of sensors that are meters.
+pub fn is_meter(sensor: &Plugin) -> bool {
+    matches!(sensor.name.as_str(), "irradiancemeter" | "radiancemeter" | "distant")
+}
+
+impl Converter<'_> {
+    /// A meter that stands by itself.
+    ///
+    /// # Errors
+    /// Parameters that make no sense.
+    pub fn meter(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
+        visit(plugin);
+        let place = plugin.at();
+        if plugin.name == "irradiancemeter" {
+            self.drop(plugin, "irradiance meter on no shape", "it is left out");
+            return Ok(());
+        }
+        let to_world = self.world * plugin.transform("to_world")?;
+        let stated = plugin.vector("direction")?.map(|direction| self.world.transform_vector3(direction));
+        let direction = place.at(given(plugin, stated.unwrap_or(to_world.matrix3.z_axis))?);
+        let name = place.at(self.meter_name(plugin));
+        let entry = if plugin.name == "radiancemeter" {
+            let origin = plugin.vector("origin")?.map(|origin| self.world.transform_point3(origin));
+            let position = given(plugin, origin.unwrap_or(to_world.translation))?;
+            MeterEntry::Radiance(RadianceKeys { name, position, direction, medium: None })
+        } else {
+            if !plugin.children_of("shape").is_empty() {
+                self.approximate(plugin, "shape as the target of a distant sensor", "one ray goes through the scene's origin");
+            }
+            let target = plugin.vector("ray_target").or_else(|_| plugin.vector("target"))?;
+            if target.is_none() && plugin.children_of("shape").is_empty() {
+                self.approximate(plugin, "distant sensor of the whole scene", "one ray goes through the scene's origin");
+            }
+            let target = self.world.transform_point3(target.unwrap_or(DVec3::ZERO));
+            MeterEntry::Distant(DistantKeys { name, direction, target: Some(given(plugin, target)?), size: None })
+        };
+        self.scene.file.meter.push(place.at(entry));
+        Ok(())
+    }
+
+    /// The meters of irradiance on a shape, which `map` puts into the world.
+    ///
+    /// # Errors
+    /// Numbers that are out of range.
+    pub fn meters_on(&mut self, shape: &Rc<Plugin>, map: DAffine3) -> Result<(), SceneError> {
+        let sensors: Vec<Rc<Plugin>> = shape.children_of("sensor").into_iter().cloned().collect();
+        for sensor in &sensors {
+            visit(sensor);
+            if sensor.name != "irradiancemeter" || shape.name != "rectangle" {
+                let what = format!("sensor `{}` on a shape of type `{}`", sensor.name, shape.name);
+                self.drop(sensor, &what, "it is left out; meters of irradiance stand on rectangles");
+                continue;
+            }
+            let map = self.world * map;
+            let [mut edge_u, mut edge_v] = [DVec3::X, DVec3::Y].map(|edge| map.transform_vector3(2.0 * edge));
+            if shape.flag("flip_normals", false)? {
+                std::mem::swap(&mut edge_u, &mut edge_v);
+            }
+            let place = sensor.at();
+            let keys = IrradianceKeys {
+                name: place.at(self.meter_name(sensor)),
+                position: None,
+                normal: None,
+                corner: Some(given(sensor, map.transform_point3(DVec3::new(-1.0, -1.0, 0.0)))?),
+                edge_u: Some(given(sensor, edge_u)?),
+                edge_v: Some(place.at(given(sensor, edge_v)?)),
+                medium: None,
+            };
+            self.scene.file.meter.push(place.at(MeterEntry::Irradiance(keys)));
+        }
+        Ok(())
+    }
+
+    /// The sensor's id, or its type and a number.
+    fn meter_name(&self, sensor: &Plugin) -> String {
+        let number = self.scene.file.meter.len() + 1;
+        if sensor.id.is_empty() { format!("{} {number}", sensor.name) } else { sensor.id.clone() }
+    }
+}
+
+/// A vector of a scene file.
+fn given(plugin: &Plugin, value: DVec3) -> Result<Vector, SceneError> {
+    plugin.possible(Exactly::of(value.to_array()))
+}
+
+/// The film and the sampler of a meter say nothing of what it measures.
+fn visit(plugin: &Rc<Plugin>) {
+    plugin.visited.set(true);
+    plugin.without_effect(&["near_clip", "far_clip", "srf"]);
+    for child in plugin.children.iter().filter(|child| matches!(child.plugin.kind.as_str(), "film" | "sampler" | "rfilter")) {
+        child.used.set(true);
+        child.plugin.visited.set(true);
+        for within in &child.plugin.children {
+            within.used.set(true);
+            within.plugin.visited.set(true);
+        }
+    }
+}
