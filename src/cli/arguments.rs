@@ -7,17 +7,16 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
 use gpt::film::Layer;
-use gpt::load::LoadOptions;
 use gpt::plan::Fault;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
 use gpt::{IntervalBasis, IntervalScope};
 
+use super::access_arguments::AccessArguments;
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::denoise::DenoiseArguments;
 use super::exit::Exit;
-use super::file_arguments::FileArguments;
 use super::film::FilmArguments;
 use super::frames::{FrameArguments, FrameList, parse_frame};
 use super::installing_arguments::{CompletionsArguments, ManArguments};
@@ -30,7 +29,7 @@ use super::setting_flags::SettingFlags;
 use super::settings::EstimateArguments;
 use super::test_arguments::TestArguments;
 use super::traversal::TraversalArguments;
-use super::values::{parse_device, parse_pixel, parse_seconds, parse_size};
+use super::values::{parse_confidence, parse_device, parse_pixel, parse_seconds, parse_share, parse_size};
 use super::view::ViewArguments;
 
 /// A headless GPU path tracer that proves its pictures against a CPU reference.
@@ -169,34 +168,6 @@ const REPORT: &str = "Messages";
 pub struct ScenesArguments {
     /// The scene to print, as a scene file; none: all are listed
     pub name: Option<String>,
-}
-
-/// Which files a scene may name, and what is shown of one that holds several things.
-#[derive(Debug, Default, Args)]
-pub struct AccessArguments {
-    #[command(flatten)]
-    pub files: FileArguments,
-    /// Give a value to a parameter that a Mitsuba file names as $KEY; may be given several times
-    #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = parse_definition)]
-    pub definitions: Vec<(String, String)>,
-    /// Look through this camera of an imported file that has several
-    #[arg(long, value_name = "NAME")]
-    pub camera: Option<String>,
-    /// Show this variant of the materials of a glTF that has several
-    #[arg(long, value_name = "NAME")]
-    pub variant: Option<String>,
-}
-
-impl AccessArguments {
-    /// Does the work of [`FileArguments::options`], with what is shown.
-    pub fn options(&self, strict: bool) -> LoadOptions {
-        LoadOptions {
-            definitions: self.definitions.clone(),
-            camera: self.camera.clone(),
-            variant: self.variant.clone(),
-            ..self.files.options(strict)
-        }
-    }
 }
 
 /// The conditions that end a render before its last sample, and the choice of pixels that get more samples.
@@ -424,27 +395,9 @@ pub struct DevicesArguments {
     pub json: bool,
 }
 
-fn parse_definition(text: &str) -> Result<(String, String), String> {
-    let (key, value) = text.split_once('=').ok_or("expected KEY=VALUE")?;
-    if key.is_empty() { Err("expected KEY=VALUE".to_owned()) } else { Ok((key.to_owned(), value.to_owned())) }
-}
-
 fn parse_target(text: &str) -> Result<f64, String> {
     let target = text.parse().ok().filter(|target: &f64| target.is_finite() && *target > 0.0);
     target.ok_or_else(|| "expected a relative mean squared error above 0, for example 0.001".to_owned())
-}
-
-pub fn parse_share(text: &str) -> Result<f64, String> {
-    let (number, whole) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 100.0));
-    let share = number.trim().parse().ok().map(|number: f64| number / whole);
-    share
-        .filter(|share| share.is_finite() && *share > 0.0)
-        .ok_or_else(|| "expected a share above 0, for example 1% or 0.01".to_owned())
-}
-
-pub fn parse_confidence(text: &str) -> Result<f64, String> {
-    let share = parse_share(text).ok().filter(|share| (0.5..1.0).contains(share));
-    share.ok_or_else(|| "expected a probability from 50% to below 100%, for example 99%".to_owned())
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {

@@ -11,11 +11,11 @@ use gpt::scene::Meter;
 use gpt::{IntervalBasis, IntervalOptions, RenderOptions, Scene};
 use serde::Serialize;
 
-use super::arguments::{AccessArguments, parse_confidence, parse_share};
+use super::access_arguments::AccessArguments;
 use super::choice::by_name;
 use super::exit::{Exit, Failure};
 use super::progress::Progress;
-use super::values::parse_device;
+use super::values::{parse_confidence, parse_device, parse_share};
 use super::{interrupt, reading, terminal};
 
 /// Samples per pixel of a meter's picture, at most.

@@ -1,5 +1,6 @@
 //! The command line: arguments in, exit code out.
 
+mod access_arguments;
 mod arguments;
 mod bench;
 mod check;

@@ -146,7 +146,7 @@ pub fn subcommand(name: &str) -> clap::Command {
 mod tests {
     use clap::{Args, Command};
 
-    use super::super::arguments::AccessArguments;
+    use super::super::access_arguments::AccessArguments;
     use super::*;
 
     /// Values of which each option takes one at least: awkward ones first.

@@ -42,6 +42,21 @@ pub fn parse_seconds(text: &str) -> Result<Duration, String> {
     duration.ok_or_else(|| "expected a number of seconds above 0".to_owned())
 }
 
+/// A share such as `1%` or `0.01`.
+pub fn parse_share(text: &str) -> Result<f64, String> {
+    let (number, whole) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 100.0));
+    let share = number.trim().parse().ok().map(|number: f64| number / whole);
+    share
+        .filter(|share| share.is_finite() && *share > 0.0)
+        .ok_or_else(|| "expected a share above 0, for example 1% or 0.01".to_owned())
+}
+
+/// A probability such as `99%`.
+pub fn parse_confidence(text: &str) -> Result<f64, String> {
+    let share = parse_share(text).ok().filter(|share| (0.5..1.0).contains(share));
+    share.ok_or_else(|| "expected a probability from 50% to below 100%, for example 99%".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -69,6 +84,14 @@ mod tests {
         for bad in ["3,0", "1,2,3,4,5", "0,0,0,4", "0,0,4,0", "-1,0,2,2", "a,b,c,d", ""] {
             assert!(parse_region(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn shares_may_be_percentages() {
+        assert_eq!(["1%", "0.25", "250 %"].map(parse_share), [Ok(0.01), Ok(0.25), Ok(2.5)]);
+        assert_eq!(["95%", "0.999"].map(parse_confidence), [Ok(0.95), Ok(0.999)]);
+        assert!(["0", "-1%", "x", "%", "inf"].iter().all(|bad| parse_share(bad).is_err()));
+        assert!(["100%", "20%", "1"].iter().all(|bad| parse_confidence(bad).is_err()));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a meter of a scene reads.
+//! The readings of a scene's meters.
 
 use serde::Serialize;
 
@@ -46,7 +46,7 @@ pub struct Measurement {
 pub fn measure(scene: &Scene, meter: &Meter, options: &RenderOptions, observer: &dyn Observer) -> Result<Measurement, Error> {
     let interval = IntervalOptions { of: IntervalScope::Picture, layers: false, ..options.interval.unwrap_or_default() };
     let options = RenderOptions { interval: Some(interval), size: None, crop: None, ..options.clone() };
-    let mut renderer = Renderer::new(&meter.view(scene), &options)?;
+    let mut renderer = Renderer::new(&scene.seen_by(meter), &options)?;
     let image = renderer.image(observer)?;
     let missing = || Error::Options("a meter needs intervals".to_owned());
     let outcome = image.outcome().ok_or_else(missing)?;

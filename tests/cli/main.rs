@@ -19,6 +19,7 @@ mod inputs;
 mod installing;
 mod kills;
 mod mattes;
+mod measure;
 mod memory_stated;
 mod models;
 mod odd_models;

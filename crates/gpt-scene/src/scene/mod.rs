@@ -24,6 +24,7 @@ pub mod media;
 pub mod medium;
 pub mod medium_grids;
 mod meter;
+mod meter_view;
 mod model;
 pub mod motion;
 mod placed_groups;

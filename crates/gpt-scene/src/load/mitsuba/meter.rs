@@ -39,7 +39,7 @@ impl Converter<'_> {
             if !plugin.children_of("shape").is_empty() {
                 self.approximate(plugin, "shape as the target of a distant sensor", "one ray goes through the scene's origin");
             }
-            let target = plugin.vector("ray_target").or_else(|_| plugin.vector("target"))?;
+            let target = plugin.vector("target")?;
             if target.is_none() && plugin.children_of("shape").is_empty() {
                 self.approximate(plugin, "distant sensor of the whole scene", "one ray goes through the scene's origin");
             }

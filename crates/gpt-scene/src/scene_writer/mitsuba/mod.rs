@@ -94,7 +94,7 @@ impl Writer<'_> {
             let place = xml::look_at(position, position + direction, direction.any_orthonormal_vector());
             let film = Element::new("film", "hdrfilm").integer("width", 1).integer("height", 1).string("pixel_format", "rgb");
             let sensor = Element::new("sensor", kind).transform("to_world", &place);
-            let sensor = if kind == "distant" { sensor.point("ray_target", position) } else { sensor };
+            let sensor = if kind == "distant" { sensor.point("target", position) } else { sensor };
             self.xml.push(sensor.with(film.with(Element::new("rfilter", "box"))));
         }
     }
