@@ -17,7 +17,7 @@ use super::bench::command;
 use super::denoise::{BIAS_KEY, DENOISER_KEY};
 use super::difference_page::{self, PicturePair, Section, Tone};
 use super::exit::{Exit, Failure};
-use super::{intervals, outputs, terminal};
+use super::{outputs, shares, terminal};
 
 /// Pixels along the side of the page's tiles.
 const PAGE_TILE: u32 = 8;
@@ -95,7 +95,7 @@ fn ends_of_header(file: &Channels, key: &str) -> Option<[f64; 3]> {
 }
 
 fn in_words(sure: &SureDifference) -> String {
-    let confidence = intervals::whole_percent(sure.confidence);
+    let confidence = shares::whole_percent(sure.confidence);
     let of_means = if sure.relative > 0.0 {
         let [red, green, blue] = sure.means.map(f64::abs);
         let share =

@@ -7,6 +7,7 @@ use gpt::{IntervalBasis, IntervalEstimate, IntervalOptions, Outcome, RenderOptio
 
 use super::arguments::RenderArguments;
 use super::exit::Failure;
+use super::shares::{percent, whole_percent};
 use super::{layers, terminal};
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
@@ -82,29 +83,4 @@ fn of_picture(interval: &IntervalEstimate) -> String {
 fn widest(interval: &IntervalEstimate) -> String {
     let narrow = percent(interval.narrow_enough);
     format!("{}: the widest interval is within {} ({narrow} are narrow enough)", interval.of.name(), percent(interval.widest))
-}
-
-fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    // Four digits that say something, and those before the point.
-    let decimals = (3 - percent.abs().max(1e-9).log10().floor() as i32).clamp(1, 9) as usize;
-    let digits = format!("{percent:.decimals$}");
-    format!("{} %", digits.trim_end_matches('0').trim_end_matches('.'))
-}
-
-/// A probability, of which all digits count.
-pub fn whole_percent(share: f64) -> String {
-    let digits = format!("{:.8}", 100.0 * share);
-    format!("{} %", digits.trim_end_matches('0').trim_end_matches('.'))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shares_are_shown_without_needless_digits() {
-        assert_eq!([0.01, 0.99, 0.123_456_789, 1.0].map(percent), ["1 %", "99 %", "12.35 %", "100 %"]);
-        assert_eq!([0.99, 0.95, 0.999_99].map(whole_percent), ["99 %", "95 %", "99.999 %"]);
-    }
 }

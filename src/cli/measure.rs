@@ -146,7 +146,7 @@ fn text(measured: &[Measurement]) -> String {
             IntervalBasis::Bound => "samples have a bound",
             IntervalBasis::Seen => "by what was seen",
         };
-        let confidence = super::intervals::whole_percent(interval.confidence);
+        let confidence = super::shares::whole_percent(interval.confidence);
         let _ = writeln!(
             text,
             "{name} ({kind}, {confidence} confidence, {stands_on}, {} samples of each of 256 cells)",

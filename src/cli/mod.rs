@@ -42,6 +42,7 @@ mod scenes;
 mod sequence;
 mod setting_flags;
 mod settings;
+mod shares;
 mod shell;
 mod terminal;
 mod test;

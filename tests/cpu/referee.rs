@@ -10,7 +10,7 @@ use gpt::referee::picture::TruthPicture;
 use gpt::referee::test::{Test, Variant, VariantPicture};
 use gpt::referee::truth::Truth;
 use gpt::referee::{all_tests, replay, shipped};
-use gpt::renderer::{RenderRequest, Renderer, Silent};
+use gpt::renderer::{Batch, RenderRequest, Renderer, Silent};
 
 use crate::common::effort::in_full;
 
@@ -23,9 +23,26 @@ fn rendered(test: &Test, spp: u32, seed: u32) -> [Vec<[f32; 3]>; 2] {
 }
 
 fn rendered_once(test: &Test, spp: u32, seed: u32) -> Vec<[f32; 3]> {
+    rendered_scene(test, &test.scene, spp, seed)
+}
+
+/// A picture by a renderer that goes on to others, with random numbers of this seed.
+fn one_of_many(renderer: &mut ReferenceRenderer, [_, height]: [u32; 2], spp: u32, seed: u32) -> Vec<[f32; 3]> {
+    let request = RenderRequest { rows: 0..height, samples: 0..spp };
+    let batch = Batch { seed: Some(gpt::sampling::hash::mix(seed)), ..Batch::of(&request) };
+    let mut pixels = Vec::new();
+    let report = renderer.render_batch(&batch, &Silent, &mut |band| {
+        pixels.extend(band.mean);
+        Ok(())
+    });
+    report.expect("it renders");
+    pixels
+}
+
+/// A picture of a scene in place of the test's own.
+fn rendered_scene(test: &Test, text: &str, spp: u32, seed: u32) -> Vec<[f32; 3]> {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let mut scene =
-        replay::load_scene(test.name, &test.scene, &test.files, folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    let mut scene = replay::load_scene(test.name, text, &test.files, folder.path()).unwrap_or_else(|error| panic!("{error}"));
     (scene.render.spp, scene.render.seed) = (spp, seed);
     let mut pixels = Vec::new();
     let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..spp };
@@ -105,6 +122,74 @@ fn the_reference_agrees_with_every_truth_and_planted_mistakes_are_named() {
         }
     }
     assert!(wrong.is_empty(), "{} mistakes:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Scenes with a mistake planted into them render to pictures that are found to differ, and the mistake is called by its name.
+#[test]
+fn mistakes_in_scenes_are_found() {
+    let tests = all_tests();
+    let spp = samples();
+    let level = gpt::compare::sidak(0.01, tests.len());
+    let (mut planted, mut wrong) = (0, Vec::new());
+    for test in &tests {
+        let truth = truth(test);
+        let with_mistakes: Vec<(&str, String)> = test
+            .variants
+            .iter()
+            .filter_map(|variant| match &variant.picture {
+                VariantPicture::Scene(scene) => Some((variant.cause, scene.clone())),
+                VariantPicture::Formula(_) => None,
+            })
+            .collect();
+        for (cause, scene) in with_mistakes {
+            planted += 1;
+            let folder = tempfile::tempdir().expect("a temporary folder");
+            if let Err(error) = replay::load_scene(test.name, &scene, &test.files, folder.path()) {
+                wrong.push(format!("{}: {cause} is no scene: {error}", test.name));
+                continue;
+            }
+            let render = |seed| rendered_scene(test, &scene, spp, seed);
+            let pictures = [render(3), render(103)];
+            let pictures = pictures.each_ref().map(Vec::as_slice);
+            let judged = judge(&truth, truth.width, &pictures, Seeds::Known, level);
+            if judged.outcome != Outcome::Differs {
+                wrong.push(format!("{}: {cause} is not found, {:?}", test.name, judged.finds));
+            }
+        }
+    }
+    println!("{planted} mistakes in scenes");
+    assert!(wrong.is_empty(), "{} of {planted} mistakes:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Runs of the whole suite by a renderer without a mistake: of 1,000, no more have a false alarm than the level of the suite says.
+#[test]
+fn the_suite_raises_no_more_false_alarms_than_it_says() {
+    let runs: u32 = if in_full("1,000 runs of the referee's suite without a mistake") { 1000 } else { return };
+    // Enough for tests of means, whose distribution is less normal where samples are fewer.
+    const SPP: u32 = 8;
+    const OF_SUITE: f64 = 0.05;
+    let tests = all_tests();
+    let level = gpt::compare::sidak(OF_SUITE, tests.len());
+    let mut alarms = vec![Vec::new(); runs as usize];
+    for test in &tests {
+        let truth = truth(test);
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let scene = replay::load_scene(test.name, &test.scene, &test.files, folder.path());
+        let mut scene = scene.unwrap_or_else(|error| panic!("{error}"));
+        scene.render.spp = SPP;
+        let mut renderer = ReferenceRenderer::new(&scene).expect("it is supported");
+        for run in 0..runs {
+            let pictures = [2 * run, 2 * run + 1].map(|seed| one_of_many(&mut renderer, scene.film.size, SPP, seed));
+            let judged = judge(&truth, truth.width, &pictures.each_ref().map(Vec::as_slice), Seeds::Known, level);
+            if judged.outcome != Outcome::Agrees {
+                alarms[run as usize].push(test.name);
+            }
+        }
+    }
+    let alarmed = alarms.iter().filter(|names| !names.is_empty()).count();
+    println!("{alarmed} of {runs} runs had a false alarm, where {OF_SUITE} of them may: {:?}", alarms.concat());
+    let most = OF_SUITE * f64::from(runs) + 3.0 * (OF_SUITE * (1.0 - OF_SUITE) * f64::from(runs)).sqrt();
+    assert!(alarmed as f64 <= most, "{alarmed} of {runs}: {:?}", alarms.concat());
 }
 
 /// Files of truths that no formula tells, which are made again where `GPT_BLESS` is set; the long form makes them anew and compares.

@@ -56,7 +56,11 @@ pub fn tests() -> Vec<Test> {
             "attenuation_distance = 80",
             "a volume that absorbs nothing",
         )
-        .mistake_in_scene("a body that is taken for a thin one", "transmission = 1", "transmission = 1\nthin = true"),
+        .mistake_in_scene(
+            "a body that is taken for a thin one",
+            "transmission = 1\nattenuation_color = [0.9, 0.4, 0.2]\nattenuation_distance = 0.8",
+            "transmission = 1\nthin = true",
+        ),
         of(
             ["extensions/ior", "A smooth dielectric of index 2.", "KHR_materials_ior"],
             "base_color = [0.2, 0.3, 0.6]\nmetallic = 0\nroughness = 0.2\nior = 2",
