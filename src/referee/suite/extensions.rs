@@ -17,6 +17,18 @@ fn scene(keys: &str) -> String {
     sized([32, 32], "position = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = 28\n", &tables.concat())
 }
 
+/// A sphere of these keys before a white strip, whose edges show how far each colour is bent.
+fn before_a_strip(keys: &str) -> String {
+    let tables = [
+        material("m", &format!("type = \"principled\"\n{keys}")),
+        emissive("strip", [6.0; 3]),
+        shape("sphere", "m", "center = [0, 0, 0]\nradius = 0.8"),
+        shape("rectangle", "strip", "corner = [0.1, -1, -1.5]\nedge_u = [0.15, 0, 0]\nedge_v = [0, 2, 0]"),
+        light("environment", "radiance = 0.3"),
+    ];
+    sized([32, 32], "position = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = 28\n", &tables.concat())
+}
+
 pub fn tests() -> Vec<Test> {
     let of = |texts, keys: &str, words: &str, others: &str, cause| {
         Test::estimated(texts, scene(keys)).mistake_in_scene(cause, words, others)
@@ -99,13 +111,15 @@ pub fn tests() -> Vec<Test> {
             "anisotropy = 0.8",
             "anisotropy = 0.8\nanisotropy_rotation = 90",
         ),
-        of(
-            ["extensions/dispersion", "A smooth body of glass whose index depends on the colour.", "KHR_materials_dispersion"],
-            "metallic = 0\nroughness = 0\ntransmission = 1\nior = 1.7\nabbe_number = 15",
-            "abbe_number = 15",
-            "abbe_number = 1500",
-            "a dispersion that is left out",
-        ),
+        Test::estimated(
+            [
+                "extensions/dispersion",
+                "A white strip behind a smooth body of glass whose index depends on the colour.",
+                "KHR_materials_dispersion",
+            ],
+            before_a_strip("metallic = 0\nroughness = 0\ntransmission = 1\nior = 1.7\nabbe_number = 15"),
+        )
+        .mistake_in_scene("a dispersion that is left out", "abbe_number = 15", "abbe_number = 1500"),
         of(
             ["extensions/diffuse-transmission", "A sheet that scatters light through.", "KHR_materials_diffuse_transmission"],
             "base_color = [0.8, 0.7, 0.5]\nmetallic = 0\nroughness = 0.8\ndiffuse_transmission = 0.6\ndiffuse_transmission_color = [0.3, 0.8, 0.4]",
