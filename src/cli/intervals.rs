@@ -8,17 +8,21 @@ use gpt::{IntervalBasis, IntervalEstimate, IntervalOptions, Outcome, RenderOptio
 use super::arguments::RenderArguments;
 use super::exit::Failure;
 use super::shares::{percent, whole_percent};
-use super::{layers, terminal};
+use super::terminal;
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// The options with the intervals that are asked for, by `--target-interval` or as layers; the scene then has independent samples.
+/// The options with the intervals that are asked for, by `--target-interval` or as layers of the files; the scene then has independent samples.
 ///
 /// # Errors
 /// A usage error where intervals do not go with the rest.
-pub fn asked_for(arguments: &RenderArguments, scene: &mut Scene, options: &RenderOptions) -> Result<RenderOptions, Failure> {
+pub fn asked_for(
+    arguments: &RenderArguments,
+    (scene, layers): (&mut Scene, &[Layer]),
+    options: &RenderOptions,
+) -> Result<RenderOptions, Failure> {
     let asked = &arguments.goal.interval;
-    let layers = layers::wanted(arguments, scene).iter().any(|layer| matches!(layer, Layer::Low | Layer::High));
+    let layers = layers.iter().any(|layer| matches!(layer, Layer::Low | Layer::High));
     if !layers && asked.target_interval.is_none() {
         let lonely = asked.confidence.map(|_| "--confidence").or(asked.interval_by.map(|_| "--interval-by"));
         let Some(flag) = lonely else { return Ok(options.clone()) };

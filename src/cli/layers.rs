@@ -19,6 +19,9 @@ use super::view::Watching;
 pub const MATTES_OF_PARTS: &str = "a file keeps the six largest shares of a pixel, so parts of its samples would not add up to the whole picture's; \
      regions (--crop) do";
 
+/// Why intervals are not of parts.
+pub const INTERVALS_OF_PARTS: &str = "intervals are of all samples of a picture, and those of parts do not add up to them";
+
 /// Layers that are rendered.
 #[derive(Default)]
 pub struct Layers {

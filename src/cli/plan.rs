@@ -15,7 +15,7 @@ use super::arguments::PlanArguments;
 use super::check::{device_memory, guess_time};
 use super::exit::{Exit, Failure};
 use super::frames::{FrameArguments, FrameList};
-use super::layers::MATTES_OF_PARTS;
+use super::layers::{INTERVALS_OF_PARTS, MATTES_OF_PARTS};
 use super::sequence::bad_frame;
 use super::typed::{CommandLine, Typed};
 use super::{settings, terminal};
@@ -180,6 +180,9 @@ fn plan_samples((arguments, typed): (&PlanArguments, &Typed), scene: &Scene) -> 
     let layers = if arguments.aov.is_empty() { &scene.layers } else { &arguments.aov };
     if layers.contains(&Layer::Cryptomatte) {
         return Err(Failure::usage(format!("--chunks with the layer cryptomatte: {MATTES_OF_PARTS}")));
+    }
+    if layers.iter().any(|layer| matches!(layer, Layer::Low | Layer::High)) {
+        return Err(Failure::usage(format!("--chunks with the layers low and high: {INTERVALS_OF_PARTS}")));
     }
     let (device, device_bytes) = device_memory(scene)?;
     let seconds = guess_time(scene)?.seconds;

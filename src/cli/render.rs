@@ -111,9 +111,7 @@ fn scene(
 ) -> Result<Exit, Failure> {
     let frames = &arguments.frames;
     let first = |path: &Path| named(path, frames.first_number());
-    let scene = load(arguments, live.files())?;
-    let mut scene = scene;
-    let options = &intervals::asked_for(arguments, &mut scene, options)?;
+    let mut scene = load(arguments, live.files())?;
     live.begin(&scene.name);
     let mut outputs = named_outputs.to_vec();
     if outputs.is_empty() {
@@ -130,6 +128,8 @@ fn scene(
         save_scene(&scene, path, live.files())?;
     }
     checkpoint::check(&arguments.checkpoint, &outputs)?;
+    let layers = layers::of_files(arguments, &scene, &outputs)?;
+    let options = &intervals::asked_for(arguments, (&mut scene, &layers), options)?;
     let times = frames.times(&scene.animation)?;
     // All frames draw from lights in the same way, whichever of them are rendered.
     let scene = if times == [FrameTime::Rest] { scene } else { trial::choose(&scene)?.scene.into_owned() };

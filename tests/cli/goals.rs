@@ -74,6 +74,8 @@ fn wishes_that_cannot_be_are_refused() {
     ] {
         place.expect(2, &format!("render scene.toml --device cpu {wish}"));
     }
+    let said = place.expect(2, "plan scene.toml --chunks 2 --aov low");
+    assert!(said.contains("do not add up"), "{said}");
     assert_eq!(place.files(), ["scene.toml"]);
 }
 
@@ -132,5 +134,7 @@ fn intervals_that_cannot_be_are_refused() {
         let said = place.expect(2, &format!("render scene.toml --device cpu -o a.exr {flags}"));
         assert!(said.contains(why), "{flags}: {said}");
     }
+    let said = place.expect(2, "plan scene.toml --chunks 2 --aov low");
+    assert!(said.contains("do not add up"), "{said}");
     assert_eq!(place.files(), ["scene.toml"]);
 }
