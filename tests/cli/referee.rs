@@ -105,6 +105,11 @@ fn what_is_no_picture_is_a_verdict() {
         let said = report["tests"][0]["reason"].as_str().expect("a reason");
         assert!(said.contains(reason) || reason == "Format", "{said}");
     }
+    // A status of its own says that the scene cannot be said, which is no fault.
+    let unable = runner(&work, "unable.sh", "echo it knows no lamps; exit 64");
+    let (status, report) = judged(&work, &unable, &[]);
+    assert_eq!((status, verdicts(&report)), (0, vec!["not_supported", "not_supported"]));
+    assert_eq!(report["tests"][0]["reason"], "it knows no lamps");
     let slow = runner(&work, "slow.sh", "exec sleep 60");
     let (status, report) = judged(&work, &slow, &["--timeout", "0.2"]);
     assert_eq!((status, verdicts(&report)), (7, vec!["failed", "failed"]));

@@ -69,6 +69,8 @@ pub enum KnownRenderer {
     MitsubaScalar,
     /// Blender's Cycles, the Python package `bpy`, which imports glTF
     Cycles,
+    /// LuxCore, the Python packages `pyluxcore`, `numpy` and `OpenEXR`, by a part of the scene files of this program
+    Luxcore,
 }
 
 /// The form in which a scene is written.
@@ -93,7 +95,7 @@ pub struct RunArguments {
     /// A renderer that needs no command
     #[arg(long, value_name = "NAME", help_heading = RENDERER)]
     pub renderer: Option<KnownRenderer>,
-    /// A command that renders a test: {scene}, {output} (.exr), {spp}, {seed}, {width} and {height} stand for what they say
+    /// A command that renders a test, or ends with status 64 and a reason where it cannot be asked: {scene}, {output} (.exr), {spp}, {seed}, {width} and {height} stand for what they say
     #[arg(long, value_name = "COMMAND", help_heading = RENDERER)]
     pub command: Option<String>,
     /// Pictures that were made before, NAME.exr and, with other random numbers, NAME-2.exr in this folder

@@ -14,7 +14,7 @@ use serde::Serialize;
 use super::arguments::RunArguments;
 use super::chosen::chosen;
 use super::report::{Shown, TestReport, Verdict, counts};
-use super::runner::{self, Picture, Runner, Wanted};
+use super::runner::{self, NoPicture, Picture, Runner, Wanted};
 use super::{badge, junit, page};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{interrupt, outputs, terminal};
@@ -177,7 +177,8 @@ fn pictures(
         let wanted = Wanted { scene: &form.path, output: &output, size: test.size(), spp, seed: number };
         match runner.render(&wanted) {
             Ok(picture) => found.push(picture),
-            Err(reason) => return Ok(Rendered::Failed(reason)),
+            Err(NoPicture::NotSupported(reason)) => return Ok(Rendered::NotSupported(reason)),
+            Err(NoPicture::Failed(reason)) => return Ok(Rendered::Failed(reason)),
         }
     }
     Ok(Rendered::Pictures(found))
@@ -188,7 +189,7 @@ fn given(test: &Test, folder: &Path) -> Rendered {
     let of = |number: u32| {
         let suffix = if number == 1 { String::new() } else { format!("-{number}") };
         let named = |ending| folder.join(format!("{}{suffix}.{ending}", test.file_name()));
-        ["exr", "hdr", "pfm", "png", "jpg"].map(named).into_iter().find(|path| path.exists())
+        ["exr", "hdr", "tif", "png", "jpg"].map(named).into_iter().find(|path| path.exists())
     };
     let mut found = Vec::new();
     for number in 1.. {

@@ -14,6 +14,10 @@ use crate::cli::interrupt;
 /// Runners of renderers that are Python packages, each one small file: `RUNNER {scene} {output} {spp} {seed} …`.
 const MITSUBA: &str = include_str!("runners/run_mitsuba.py");
 const CYCLES: &str = include_str!("runners/run_cycles.py");
+const LUXCORE: &str = include_str!("runners/run_luxcore.py");
+
+/// The status by which a renderer says that it cannot be asked for this scene; its last line is the reason.
+const NOT_SUPPORTED: i32 = 64;
 
 /// How often a renderer is looked after.
 const POLL: Duration = Duration::from_millis(10);
@@ -72,6 +76,7 @@ impl Runner {
                     of_python("run_cycles.py", CYCLES)?.into_iter().chain(["{width}", "{height}"].map(str::to_owned)).collect();
                 ("Cycles", SceneForm::Gltf, words)
             }
+            (Some(KnownRenderer::Luxcore), _) => ("LuxCore", SceneForm::Toml, of_python("run_luxcore.py", LUXCORE)?),
             (None, Some(command)) => {
                 let words = words_of(command)?;
                 let name = Path::new(&words[0]).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
@@ -92,8 +97,16 @@ impl Runner {
     /// Renders a picture.
     ///
     /// # Errors
-    /// A sentence on what the renderer did wrong.
-    pub fn render(&self, wanted: &Wanted<'_>) -> Result<Picture, String> {
+    /// A sentence on what the renderer did wrong, or cannot do.
+    pub fn render(&self, wanted: &Wanted<'_>) -> Result<Picture, NoPicture> {
+        self.run(wanted).map_err(NoPicture::Failed).and_then(|refused| match refused {
+            Some(reason) => Err(NoPicture::NotSupported(reason)),
+            None => read(wanted.output).map_err(NoPicture::Failed),
+        })
+    }
+
+    /// Runs the command; the reason, where it says that it cannot be asked.
+    fn run(&self, wanted: &Wanted<'_>) -> Result<Option<String>, String> {
         let values = [
             ("{scene}", wanted.scene.display().to_string()),
             ("{output}", wanted.output.display().to_string()),
@@ -124,12 +137,20 @@ impl Runner {
                 Err(error) => return Err(format!("it cannot be waited for: {error}")),
             }
         };
-        if !status.success() {
-            let said = std::fs::read(&log_path).unwrap_or_default();
-            return Err(format!("it ended with {status}: {}", last_words(&String::from_utf8_lossy(&said))));
+        if status.success() {
+            return Ok(None);
         }
-        read(wanted.output)
+        let said = std::fs::read(&log_path).unwrap_or_default();
+        let last = last_words(&String::from_utf8_lossy(&said));
+        if status.code() == Some(NOT_SUPPORTED) { Ok(Some(last)) } else { Err(format!("it ended with {status}: {last}")) }
     }
+}
+
+/// The reason why there is no picture, in a sentence.
+pub enum NoPicture {
+    /// The renderer cannot be asked.
+    NotSupported(String),
+    Failed(String),
 }
 
 /// A picture that was read.

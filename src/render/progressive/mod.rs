@@ -6,7 +6,7 @@
 //!
 //! - With an error to reach, every step renders several **streams** of samples, each with random numbers of its own. Streams are
 //!   independent whatever the sampler, so what they differ by tells the error of their mean ([`error`]).
-//! - With intervals to state, one sample of each pixel is rendered after the other, all of them independent ([`passes`], [`crate::confidence`]).
+//! - With intervals to state, one sample of each pixel is rendered after the other, all of them independent ([`crate::confidence`]).
 //! - With samples that follow the noise, steps belong to **stages** ([`schedule`]). A stage gives every pixel its share, and then some of them
 //!   more, by what their neighbours' samples show ([`allocation`]). A pixel has the first samples of one sequence, as many as that makes, and
 //!   what it shows is their plain mean: what its own samples saw never decides how many more it gets. Did it, pixels whose first samples
