@@ -196,7 +196,7 @@ pub struct IntervalArguments {
     #[arg(long, value_name = "SHARE", value_parser = parse_confidence)]
     pub confidence: Option<f64>,
     /// The quantities whose intervals are to become so narrow [default: picture]
-    #[arg(long, value_name = "OF", value_parser = by_name::<IntervalScope>(), requires = "target_interval")]
+    #[arg(long, value_name = "OF", value_parser = by_name::<IntervalScope>())]
     pub interval_of: Option<IntervalScope>,
     /// The assumption on which upper ends of intervals stand [default: bound, where the scene has one]
     #[arg(long, value_name = "BASIS", value_parser = by_name::<IntervalBasis>())]

@@ -24,7 +24,12 @@ pub fn asked_for(
     let asked = &arguments.goal.interval;
     let layers = layers.iter().any(|layer| matches!(layer, Layer::Low | Layer::High));
     if !layers && asked.target_interval.is_none() {
-        let lonely = asked.confidence.map(|_| "--confidence").or(asked.interval_by.map(|_| "--interval-by"));
+        let given = [
+            (asked.confidence.is_some(), "--confidence"),
+            (asked.interval_by.is_some(), "--interval-by"),
+            (asked.interval_of.is_some(), "--interval-of"),
+        ];
+        let lonely = given.into_iter().find_map(|(is_given, flag)| is_given.then_some(flag));
         let Some(flag) = lonely else { return Ok(options.clone()) };
         let what = "belongs to --target-interval, or to the layers low and high of --aov";
         return Err(Failure::usage(format!("{flag} {what}")));

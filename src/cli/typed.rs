@@ -200,7 +200,7 @@ mod tests {
     #[test]
     fn access_is_said_alike_by_every_command() {
         let access = AccessArguments::augment_args(Command::new("gpt"));
-        for name in ["render", "plan", "verify", "check", "import", "export"] {
+        for name in ["render", "plan", "verify", "check", "import", "export", "measure"] {
             let command = subcommand(name);
             for argument in access.get_arguments() {
                 let same = command.get_arguments().find(|one| one.get_id() == argument.get_id()).expect("it is flattened");

@@ -122,6 +122,7 @@ fn intervals_that_cannot_be_are_refused() {
     let place = Workplace::new();
     for (flags, why) in [
         ("--confidence 99%", "--target-interval"),
+        ("--interval-of tiles", "--target-interval"),
         ("--target-interval 1% --confidence 20%", "from 50% to below 100%"),
         ("--target-interval 1% --adaptive", "--adaptive"),
         ("--target-interval 1% --target-error 0.1", "--target-error"),
