@@ -20,26 +20,30 @@ pub struct BernsteinBoundary {
     /// ln(1/α), and that with the number of rates over which the mean is taken.
     threshold: f64,
     summed_threshold: f64,
+    /// Each rate λ with ψ(λ).
+    rates: [(f64, f64); RATES],
 }
 
 impl BernsteinBoundary {
     /// The boundary that S crosses with probability `alpha` at most.
     pub fn new(alpha: f64) -> Self {
         let threshold = -alpha.ln();
-        Self { threshold, summed_threshold: threshold + (RATES as f64).ln() }
+        let rates = std::array::from_fn(|number| {
+            let rate = LARGEST_RATE * (-LN_2 * number as f64).exp();
+            (rate, -(-rate).ln_1p() - rate)
+        });
+        Self { threshold, summed_threshold: threshold + (RATES as f64).ln(), rates }
     }
 
     /// The S that is not crossed, for the sum V of squared deviations from the predictions.
     pub fn deviation(&self, squares: f64) -> f64 {
-        let rates = || (0..RATES).map(|number| LARGEST_RATE * (-LN_2 * number as f64).exp());
-        let psi = |rate: f64| -(-rate).ln_1p() - rate;
         // One rate alone reaches the threshold here; from above, Newton's method on a convex function goes straight down.
-        let alone = |rate: f64| (self.summed_threshold + psi(rate) * squares) / rate;
-        let mut sum = rates().map(alone).fold(f64::INFINITY, f64::min);
+        let alone = |&(rate, psi): &(f64, f64)| (self.summed_threshold + psi * squares) / rate;
+        let mut sum = self.rates.iter().map(alone).fold(f64::INFINITY, f64::min);
         for _ in 0..MOST_STEPS {
             let (mut total, mut slope) = (0.0, 0.0);
-            for rate in rates() {
-                let term = (rate * sum - psi(rate) * squares - self.summed_threshold).exp();
+            for (rate, psi) in self.rates {
+                let term = (rate * sum - psi * squares - self.summed_threshold).exp();
                 total += term;
                 slope += rate * term;
             }

@@ -4,7 +4,7 @@ use std::io;
 use std::time::Instant;
 
 use super::goal::{Goal, Outcome, Stop, stop_of};
-use super::steps::add_report;
+use super::steps::{Offset, add_report};
 use crate::confidence::estimate::Estimator;
 use crate::confidence::sums::{IntervalSums, WARM_UP};
 use crate::confidence::{IntervalGoal, IntervalScope};
@@ -97,7 +97,7 @@ impl Passes<'_> {
             let batch = Batch { seed: Some(self.seed), deadline: self.goal.deadline, ..Batch::of(&request) };
             let mut pixels = vec![[0.0; 3]; width as usize * height as usize];
             unfinished.clear();
-            let observer = Silenced {
+            let observer = Offset {
                 observer: self.observer,
                 before: report.samples,
                 total: u64::from(width) * u64::from(height) * samples.len() as u64,
@@ -201,23 +201,6 @@ fn rounded_down(value: f64) -> f32 {
 fn rounded_up(value: f64) -> f32 {
     let nearest = value as f32;
     if f64::from(nearest) < value { nearest.next_up() } else { nearest }
-}
-
-/// Shows an observer one sample as a part of the whole, and no rows while it is in the making.
-struct Silenced<'a> {
-    observer: &'a dyn Observer,
-    before: u64,
-    total: u64,
-}
-
-impl Observer for Silenced<'_> {
-    fn progress(&self, done: u64, _total: u64) {
-        self.observer.progress(self.before + done, self.total.max(self.before + done));
-    }
-
-    fn stop_requested(&self) -> bool {
-        self.observer.stop_requested()
-    }
 }
 
 #[cfg(test)]

@@ -351,10 +351,10 @@ pub(super) fn add_report(sum: &mut RenderReport, batch: RenderReport) {
 }
 
 /// Tells an observer of one batch as a part of the whole.
-struct Offset<'a> {
-    observer: &'a dyn Observer,
-    before: u64,
-    total: u64,
+pub(super) struct Offset<'a> {
+    pub observer: &'a dyn Observer,
+    pub before: u64,
+    pub total: u64,
 }
 
 impl Observer for Offset<'_> {

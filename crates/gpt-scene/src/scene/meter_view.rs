@@ -15,9 +15,9 @@ use super::texture::ColorInput;
 
 /// Pixels along a side of a meter's picture: its samples are spread over as many cells.
 const SIDE: u32 = 16;
-/// Distance of the paper from where it measures, and of the eye from the paper, in units of the largest length there is. Single precision resolves a
-/// thousandth of it.
-const DISTANCE: f64 = 1e-4;
+/// Distance of the paper from where it measures, and of the eye from the paper, in units of the largest length there is: few enough that light hardly
+/// changes, and many times what single precision resolves.
+const DISTANCE: f64 = 4e-6;
 
 impl Scene {
     /// The scene as a meter sees it: with a camera and a film for it, all emitters visible, and the paper, if there is one.
@@ -85,8 +85,8 @@ fn on_paper(view: &mut Scene, corner: DVec3, [edge_u, edge_v]: [DVec3; 2], dista
     let for_camera = MaterialKind::Blend { materials: [first, first + 1], weight: BlendWeight::Camera };
     view.materials.extend([white, MaterialKind::Pass, for_camera].map(material));
     // Rays at its edges meet it, too.
-    let margin = 0.01 * (edge_u + edge_v);
-    let [wide_u, wide_v] = [edge_u, edge_v].map(|edge| 1.02 * edge);
+    let [beyond_u, beyond_v] = [edge_u, edge_v].map(|edge| 0.01 * edge + edge.normalize() * distance);
+    let (margin, wide_u, wide_v) = (beyond_u + beyond_v, edge_u + 2.0 * beyond_u, edge_v + 2.0 * beyond_v);
     view.shapes.push(Shape {
         label: "the meter's paper".to_owned(),
         geometry: Geometry::Rectangle(Rectangle { corner: corner - margin + normal * distance, edge_u: wide_u, edge_v: wide_v }),
