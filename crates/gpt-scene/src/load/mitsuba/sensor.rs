@@ -251,7 +251,7 @@ impl Converter<'_> {
             (beside + principal * film.size[side]) / film.crop[side]
         });
         if shift.iter().any(|shift| shift.abs() > 1e-12) {
-            camera.shift = Some(plugin.possible(Exactly::of([shift[0], -shift[1]]))?);
+            camera.shift = Some(plugin.at().at(plugin.possible(Exactly::of([shift[0], -shift[1]]))?));
         }
         Ok(())
     }
