@@ -188,12 +188,12 @@ impl ReferenceRenderer {
         let mut limiter = PathLimiter { rays: 0, stopping: &batch.stopping, gave_up: None };
         let (mut samples, mut traced, mut non_finite) = (0, 0_u64, 0);
         let mut clamp = Clamp::new(self.integrator.scene().render.clamp, self.layer);
-        let camera = self.integrator.view_axis();
+        let depth = self.integrator.depth_measure();
         for point in points {
             let sampler = PathSampler::new(sampling, pixel, point);
             let mut radiance = Spectrum::BLACK;
             if let Some(layer) = self.layer {
-                let mut visitor = LayerVisitor::new(layer, camera, &mut limiter);
+                let mut visitor = LayerVisitor::new(layer, depth, &mut limiter);
                 let found = clamp.darken(self.integrator.radiance(x, y, &sampler, &mut visitor));
                 let Some(value) = visitor.value(found) else {
                     traced += 1;

@@ -20,7 +20,7 @@ mod span;
 mod stereo;
 mod window;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 pub use aperture::{Aperture, ApertureShape, BLADES};
 pub use brown_conrady::BrownConrady;
@@ -99,6 +99,16 @@ impl Camera {
     pub fn view_size(&self, film: [u32; 2]) -> [u32; 2] {
         let [columns, rows] = self.tiles();
         [film[0] / columns, film[1] / rows]
+    }
+
+    /// Kernels that are made for one of both cameras are right for the other: they have the same projection, and views.
+    pub fn has_kernels_of(&self, other: &Self) -> bool {
+        let mapping = |camera: &Self| match camera.projection {
+            Projection::Fisheye(model) => Some(model.mapping),
+            _ => None,
+        };
+        let kind = |camera: &Self| (std::mem::discriminant(&camera.projection), mapping(camera), camera.window(DVec2::ONE).is_some());
+        kind(self) == kind(other) && self.tiles() == other.tiles() && self.stereo.is_some() == other.stereo.is_some()
     }
 
     /// The layer of depth is measured along the viewing direction; else from the camera's position.

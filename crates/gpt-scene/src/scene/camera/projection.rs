@@ -37,11 +37,11 @@ macro_rules! projections {
                 }
             }
 
-            /// The switch of shaders that compiles its model.
-            pub fn switch(&self) -> Option<&'static str> {
+            /// The switches of shaders that its model needs, its own first.
+            pub fn switches(&self) -> &'static [&'static str] {
                 match self {
-                    Self::Perspective { .. } | Self::Orthographic { .. } => None,
-                    $(Self::$variant(_) => Some(stringify!($switch)),)*
+                    Self::Perspective { .. } | Self::Orthographic { .. } => &[],
+                    $(Self::$variant(_) => &[stringify!($switch), $(stringify!($needed)),*],)*
                 }
             }
         }
