@@ -2,7 +2,6 @@
 #import core/layout.wgsl
 #import core/parameters.wgsl
 #import shading/path/camera_path.wgsl
-#import shading/path/path.wgsl
 #import stages/wavefront.wgsl
 #import stages/statistics.wgsl
 

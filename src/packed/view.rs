@@ -24,7 +24,7 @@ pub struct View {
     pub lens_v: [f32; 4],
     /// From the camera to its right eye; half the distance of its eyes.
     pub eye: [f32; 4],
-    /// What the shader of the camera's model reads.
+    /// Words that the shader of the camera's model reads.
     pub model: [[f32; 4]; 4],
     /// One over the distance at which the eyes converge.
     pub convergence: [f32; 4],

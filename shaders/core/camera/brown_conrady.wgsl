@@ -1,5 +1,4 @@
 // A perspective that a lens distorts. crates/gpt-scene/src/scene/camera/brown_conrady.rs is the same in f64, with the formula's source.
-#import core/math.wgsl
 #import core/parameters.wgsl
 
 // How near to the place its direction must be shown, on the plane at distance 1.
@@ -42,7 +41,7 @@ fn radius_shown_at(distance: f32) -> f32 {
     return at;
 }
 
-// Where a point of the plane at distance 1 is shown on it (x, y).
+// The place at which a point of the plane at distance 1 is shown on it (x, y).
 fn shown_by_lens(point: vec2<f32>) -> vec2<f32> {
     let p = view.model[2].zw;
     let square = dot(point, point);

@@ -1,7 +1,7 @@
 use super::*;
-use crate::scene::{Aperture, Projection};
 use crate::compare::sidak;
 use crate::scene::EXPOSURE_STRETCHES;
+use crate::scene::{Aperture, Projection};
 use crate::statistics::{chi_squared_test, random::SplitMix64};
 
 fn camera(projection: Projection, aperture: Option<Aperture>) -> CameraRays {

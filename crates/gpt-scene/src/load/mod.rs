@@ -16,7 +16,6 @@
 mod access;
 mod builtin;
 mod builtin_scenes;
-mod calibration;
 mod deformation_file;
 mod encoding;
 mod environment_map;

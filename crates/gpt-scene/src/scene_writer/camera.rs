@@ -58,7 +58,9 @@ fn projection(projection: &Projection) -> String {
         }
         Projection::CubeMap(model) => line("layout", &text(model.layout.name())),
         Projection::BrownConrady(model) => {
-            intrinsics(&model.intrinsics) + &coefficients("radial", &model.radial) + &coefficients("tangential", &model.tangential)
+            intrinsics(&model.intrinsics)
+                + &coefficients("radial", &model.radial)
+                + &coefficients("tangential", &model.tangential)
         }
         Projection::KannalaBrandt(model) => {
             let fov = if model.fov_degrees == 360.0 { String::new() } else { line("fov", &number(model.fov_degrees)) };

@@ -34,7 +34,9 @@ pub fn with_flat_camera<'s>(scene: &'s Scene, losses: &mut Losses, has: fn(&Proj
         }
         Projection::Perspective { .. } | Projection::Orthographic { .. } | Projection::BrownConrady(_) => {}
         other if has(&other) => {}
-        other => losses.approximate(format!("projection {}", other.name()), "camera", format!("a perspective of {AROUND} degrees")),
+        other => {
+            losses.approximate(format!("projection {}", other.name()), "camera", format!("a perspective of {AROUND} degrees"))
+        }
     }
     Cow::Owned(flat)
 }

@@ -75,7 +75,7 @@ impl BrownConrady {
         Rising { end, most: self.radial(end).0 }
     }
 
-    /// Where a point of the plane at distance 1 is shown on it, and the derivative of that.
+    /// The place at which a point of the plane at distance 1 is shown on it, and the derivative of that.
     fn distorted(&self, point: DVec2) -> (DVec2, DMat2) {
         let [p1, p2] = self.tangential;
         let DVec2 { x, y } = point;
@@ -135,7 +135,7 @@ impl CameraModel for BrownConrady {
     }
 
     fn check_view(&self, size: DVec2) -> Check {
-        super::check::sees_something(self, size, self.intrinsics.axis_in(size))
+        super::blind::sees_something(self, size, self.intrinsics.axis_in(size))
     }
 
     fn direction(&self, place: &ViewPlace) -> Option<DVec3> {
@@ -147,12 +147,7 @@ impl CameraModel for BrownConrady {
     fn words(&self, size: DVec2) -> [DVec4; 4] {
         let ([k1, k2, k3, k4, k5, k6], [p1, p2]) = (self.radial, self.tangential);
         let Rising { end, most } = self.rising;
-        [
-            self.intrinsics.words(size),
-            DVec4::new(k1, k2, k3, k4),
-            DVec4::new(k5, k6, p1, p2),
-            DVec4::new(end, most, 0.0, 0.0),
-        ]
+        [self.intrinsics.words(size), DVec4::new(k1, k2, k3, k4), DVec4::new(k5, k6, p1, p2), DVec4::new(end, most, 0.0, 0.0)]
     }
 
     fn eyes(&self) -> Eyes {

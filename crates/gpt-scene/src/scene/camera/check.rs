@@ -2,12 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::model::{CameraModel, Eyes, ViewPlace};
+use super::blind::blind_share;
+use super::model::Eyes;
 use super::{Camera, Projection};
 use crate::scene::check::{Check, is_positive, within_range};
-
-/// Places along each side of a view at which it is looked whether anything is seen.
-const PLACES: u32 = 64;
 
 impl Camera {
     /// Checks that pictures of so many pixels can be taken with the camera.
@@ -88,27 +86,4 @@ impl Camera {
             _ => 0.0,
         }
     }
-}
-
-/// Evenly spread places of a view.
-fn places(size: DVec2) -> impl Iterator<Item = ViewPlace> {
-    let at = move |index: u32| {
-        let steps = DVec2::new(f64::from(index % PLACES), f64::from(index / PLACES));
-        ViewPlace { tile: 0, at: (steps + 0.5) / f64::from(PLACES) * size, size }
-    };
-    (0..PLACES * PLACES).map(at)
-}
-
-fn blind_share(model: &dyn CameraModel, size: DVec2) -> f64 {
-    let blind = places(size).filter(|place| model.direction(place).is_none()).count();
-    blind as f64 / f64::from(PLACES * PLACES)
-}
-
-/// Checks that some place of a view sees something; `axis` is the place of the axis, perhaps outside.
-pub fn sees_something(model: &dyn CameraModel, size: DVec2, axis: DVec2) -> Check {
-    let nearest = ViewPlace { tile: 0, at: axis.clamp(DVec2::splat(0.5), (size - 0.5).max(DVec2::splat(0.5))), size };
-    if std::iter::once(nearest).chain(places(size)).any(|place| model.direction(&place).is_some()) {
-        return Ok(());
-    }
-    Err("no place of its picture sees anything: all lie beyond where its lens shows the farthest from the axis".into())
 }

@@ -21,13 +21,13 @@ choices! {
 
     /// How large the circle of a fisheye is.
     pub enum FisheyeFit {
-        /// It touches the nearest edges: all of it is in the picture.
+        /// The circle touches the nearest edges: all of it is in the picture.
         Inside = "inside",
-        /// It is as wide as the picture.
+        /// The circle is as wide as the picture.
         Width = "width",
-        /// It is as high as the picture.
+        /// The circle is as high as the picture.
         Height = "height",
-        /// It goes through the corners: all of the picture is in it.
+        /// The circle goes through the corners: all of the picture is in it.
         Diagonal = "diagonal",
     }
 }

@@ -17,7 +17,7 @@ pub struct KannalaBrandt {
     pub(crate) intrinsics: Intrinsics,
     /// k₁ to k₄.
     pub(crate) radial: [f64; 4],
-    /// What lies farther than half of it from the axis is not seen.
+    /// Things farther than half of it from the axis are not seen.
     pub(crate) fov_degrees: f64,
     /// How far the polynomial rises.
     rising: Rising,
@@ -62,7 +62,7 @@ impl CameraModel for KannalaBrandt {
     }
 
     fn check_view(&self, size: DVec2) -> Check {
-        super::check::sees_something(self, size, self.intrinsics.axis_in(size))
+        super::blind::sees_something(self, size, self.intrinsics.axis_in(size))
     }
 
     fn direction(&self, place: &ViewPlace) -> Option<DVec3> {

@@ -4,6 +4,7 @@
 //! `window` is a flat picture, `stereo` a second eye, `aperture` a lens. What depends on the picture's size is checked for that size.
 
 mod aperture;
+mod blind;
 mod brown_conrady;
 mod check;
 mod cube_map;
@@ -86,6 +87,20 @@ impl Camera {
         [right, backward.cross(right), backward]
     }
 
+    /// The window of a view of so many pixels; None where the picture is not flat. A calibrated lens that distorts nothing has one.
+    pub fn window(&self, size: DVec2) -> Option<Window> {
+        let of_height = |half_height: f64, is_parallel| {
+            let half_extent = DVec2::new(half_height * size.x / size.y * self.stretch, half_height);
+            Some(Window { half_extent, shift: DVec2::from(self.shift), is_parallel })
+        };
+        match self.projection {
+            Projection::Perspective { vertical_fov_degrees } => of_height((0.5 * vertical_fov_degrees.to_radians()).tan(), false),
+            Projection::Orthographic { height } => of_height(0.5 * height, true),
+            Projection::BrownConrady(model) if model.is_undistorted() => Some(model.intrinsics.window()),
+            _ => None,
+        }
+    }
+
     /// Columns and rows of views that its picture consists of: of two eyes, or the sides of a cube.
     pub fn tiles(&self) -> [u32; 2] {
         match (self.stereo, self.projection.model()) {
@@ -107,7 +122,8 @@ impl Camera {
             Projection::Fisheye(model) => Some(model.mapping),
             _ => None,
         };
-        let kind = |camera: &Self| (std::mem::discriminant(&camera.projection), mapping(camera), camera.window(DVec2::ONE).is_some());
+        let kind =
+            |camera: &Self| (std::mem::discriminant(&camera.projection), mapping(camera), camera.window(DVec2::ONE).is_some());
         kind(self) == kind(other) && self.tiles() == other.tiles() && self.stereo.is_some() == other.stereo.is_some()
     }
 

@@ -1,4 +1,4 @@
-//! What a model of a camera is asked for, and the table of models.
+//! The contract of a camera's model, and the table of models.
 
 use glam::{DVec2, DVec3, DVec4};
 
@@ -69,13 +69,13 @@ pub trait CameraModel {
     /// is 1, but for a cylinder, where that of its level part is, and for models [with an axis](Self::has_plane), whose plane at distance 1 it ends on.
     fn direction(&self, place: &ViewPlace) -> Option<DVec3>;
 
-    /// What its shader reads, for views of so many pixels.
+    /// The words that its shader reads, for views of so many pixels.
     fn words(&self, size: DVec2) -> [DVec4; 4];
 
     /// How two eyes would stand.
     fn eyes(&self) -> Eyes;
 
-    /// It sees what lies before a plane, along which depth is measured and into which a lens may focus.
+    /// The camera sees what lies before a plane across its axis: depth is measured along the axis, and a lens may focus.
     fn has_plane(&self) -> bool {
         false
     }

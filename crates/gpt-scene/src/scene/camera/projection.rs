@@ -1,7 +1,12 @@
 //! The ways in which a camera sees.
 
+use super::brown_conrady::BrownConrady;
+use super::cube_map::CubeMap;
+use super::cylindrical::Cylindrical;
+use super::equirectangular::Equirectangular;
+use super::fisheye::Fisheye;
+use super::kannala_brandt::KannalaBrandt;
 use super::model::{CameraModel, camera_table};
-use super::{BrownConrady, CubeMap, Cylindrical, Equirectangular, Fisheye, KannalaBrandt};
 
 macro_rules! projections {
     ($($(#[$meta:meta])* $variant:ident $module:ident $switch:ident $($needed:ident)*,)*) => {

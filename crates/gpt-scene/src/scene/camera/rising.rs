@@ -17,7 +17,7 @@ impl Rising {
     /// The distance at which the function has a value; None where it has it nowhere. By Newton's method between two distances
     /// that enclose the place, which are halved where a step leads out of them. `function` gives value and slope.
     pub fn inverse(&self, value: f64, function: impl Fn(f64) -> (f64, f64)) -> Option<f64> {
-        // What is not a number is not seen either.
+        // A place that is not a number is not seen either.
         if value.is_nan() || value > self.most {
             return None;
         }

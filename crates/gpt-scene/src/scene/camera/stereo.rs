@@ -7,7 +7,7 @@ use crate::choice::choices;
 use crate::scene::check::{Check, is_positive};
 
 choices! {
-    /// Where the pictures of two eyes lie.
+    /// The places of two eyes' pictures.
     pub enum StereoLayout {
         /// The left eye's picture is the left half.
         SideBySide = "side_by_side",
@@ -54,7 +54,7 @@ impl Stereo {
         self.convergence.map_or(0.0, f64::recip)
     }
 
-    /// Where the eye of a view stands that looks along a direction of a [model](super::model::CameraModel), from the camera's position; in
+    /// The place of the eye of a view that looks along a direction of a [model](super::model::CameraModel), from the camera's position; in
     /// its coordinates (right, up, backward). Eyes that turn stand still where the direction is upright.
     pub fn eye(&self, eyes: Eyes, direction: DVec3, tile: u32) -> DVec3 {
         let half = if tile == 0 { -0.5 * self.eye_distance } else { 0.5 * self.eye_distance };

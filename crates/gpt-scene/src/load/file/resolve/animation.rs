@@ -176,8 +176,12 @@ impl Resolver<'_> {
                 Err(self.error(span, format!("only keyframes of {kind} cameras state `{key}`")))
             };
             match (vfov, height) {
-                (Some(vfov), _) if projection != ProjectionName::Perspective => return misplaced(&vfov.place, "vfov", "perspective"),
-                (_, Some(height)) if projection != ProjectionName::Orthographic => return misplaced(&height.place, "height", "orthographic"),
+                (Some(vfov), _) if projection != ProjectionName::Perspective => {
+                    return misplaced(&vfov.place, "vfov", "perspective");
+                }
+                (_, Some(height)) if projection != ProjectionName::Orthographic => {
+                    return misplaced(&height.place, "height", "orthographic");
+                }
                 _ => {}
             }
             let opening = vfov.as_ref().map(|vfov| vfov.value.0).or(height.as_ref().map(|height| height.value.0));

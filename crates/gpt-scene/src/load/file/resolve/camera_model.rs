@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
-use crate::load::calibration::{self, Calibration, Lens};
 use crate::load::error::SceneError;
+use crate::load::file::calibration::{self, Calibration, Lens};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::syntax::{CameraTable, ProjectionName, misplaced};
+use crate::load::file::syntax::{CameraTable, ProjectionName};
 use crate::load::file::value::Located;
 use crate::load::place::Place;
 use crate::scene::settings::{MAX_PIXELS, MAX_SIDE};
 use crate::scene::{
-    BrownConrady, CubeLayout, CubeMap, Cylindrical, Equirectangular, Fisheye, FisheyeFit, FisheyeMapping, Intrinsics, KannalaBrandt, Projection,
+    BrownConrady, CubeLayout, CubeMap, Cylindrical, Equirectangular, Fisheye, FisheyeFit, FisheyeMapping, Intrinsics,
+    KannalaBrandt, Projection,
 };
 
 impl Resolver<'_> {
@@ -18,7 +19,7 @@ impl Resolver<'_> {
     pub(super) fn projection(&mut self, written: &CameraTable, has_size: bool) -> Result<Projection, SceneError> {
         let unnamed = if written.calibration.is_some() { ProjectionName::BrownConrady } else { ProjectionName::Perspective };
         let name = written.projection.as_ref().map_or(unnamed, |name| name.value);
-        misplaced(written, name).map_err(|(place, message)| self.error(place, message))?;
+        written.check_keys(name).map_err(|(place, message)| self.error(place, message))?;
         if let Some(id) = written.calibration_id.as_ref().filter(|_| written.calibration.is_none()) {
             return Err(self.error(&id.place, "`calibration_id` belongs to `calibration`"));
         }
@@ -90,12 +91,7 @@ impl Resolver<'_> {
         Ok(coefficients)
     }
 
-    fn calibrated(
-        &mut self,
-        written: &CameraTable,
-        file: &Located<String>,
-        has_size: bool,
-    ) -> Result<Projection, SceneError> {
+    fn calibrated(&mut self, written: &CameraTable, file: &Located<String>, has_size: bool) -> Result<Projection, SceneError> {
         let path = self.folder.join(&file.value);
         let lens = match written.projection.as_ref().map(|name| name.value) {
             Some(ProjectionName::KannalaBrandt) => Some(Lens::KannalaBrandt),
@@ -106,7 +102,8 @@ impl Resolver<'_> {
             return Err(self.error(&file.place, format!("there is no file {}", crate::load::error::show(&path))));
         }
         let cameras = calibration::read(self.files(), &path, lens)?;
-        let Calibration { image_size, focal, principal_point, lens, coefficients, .. } = self.chosen(written, file, &path, cameras)?;
+        let Calibration { image_size, focal, principal_point, lens, coefficients, .. } =
+            self.chosen(written, file, &path, cameras)?;
         if !has_size && let Some(size) = image_size {
             let pixels = size.into_iter().map(u64::from).product::<u64>();
             if size.into_iter().any(|side| side == 0 || side > MAX_SIDE) || pixels > MAX_PIXELS {
@@ -158,7 +155,7 @@ impl Resolver<'_> {
         let of_key = |place: Option<&Place>| place.unwrap_or(anywhere).clone();
         let ranges = [written.azimuth.as_ref().map(|range| &range.place), written.elevation.as_ref().map(|range| &range.place)];
         let place = match camera.projection {
-            // Of two ranges, the first that is wrong is reported.
+            // The first of two ranges that is wrong is reported.
             Projection::Equirectangular(model) => of_key(ranges[usize::from(model.has_right_azimuth())]),
             Projection::Cylindrical(model) => of_key(ranges[usize::from(model.has_right_azimuth())]),
             Projection::Fisheye(_) => of_key(written.fov.as_ref().map(|fov| &fov.place)),
@@ -176,7 +173,11 @@ impl Resolver<'_> {
             let [columns, rows] = camera.tiles();
             let side = (size[0] / columns).max(1);
             let error = self.error(&place, message);
-            if columns * rows == 1 { error } else { error.with_help(format!("a right size = [{}, {}] in [film]", side * columns, side * rows)) }
+            if columns * rows == 1 {
+                error
+            } else {
+                error.with_help(format!("a right size = [{}, {}] in [film]", side * columns, side * rows))
+            }
         })?;
         let share = camera.blind_share(size);
         if share > 0.0 {

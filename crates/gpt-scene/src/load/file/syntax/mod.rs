@@ -14,7 +14,7 @@ use std::num::NonZeroU32;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use camera::{ApertureEntry, CameraTable, ProjectionName, RoundAperture, misplaced};
+pub use camera::{ApertureEntry, CameraTable, ProjectionName, RoundAperture};
 pub use output::OutputTable;
 pub use render::RenderTable;
 pub use texture::{CheckerEntry, ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};

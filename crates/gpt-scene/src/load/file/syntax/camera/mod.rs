@@ -1,5 +1,6 @@
 //! `[camera]` as it is written.
 
+mod projection_name;
 mod rules;
 
 use std::num::NonZeroU32;
@@ -12,10 +13,11 @@ use crate::load::file::syntax::choice_name::ChoiceName;
 use crate::load::file::value::{
     Azimuth, Checked, Elevation, Exactly, FieldOfView, Located, NonNegative, Number, Positive, Vector, WholeAngle,
 };
-use crate::scene::camera::model::camera_table;
+use crate::load::place::Place;
 use crate::scene::{CubeLayout, FisheyeFit, FisheyeMapping, StereoLayout};
 
-pub use rules::misplaced;
+pub use projection_name::ProjectionName;
+use rules::{CALIBRATED, RULES, needed};
 
 /// The camera, from which the picture is taken.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -91,40 +93,51 @@ pub struct CameraTable {
     pub medium: Option<Located<String>>,
 }
 
-/// Declares the names of projections, and lists them.
-macro_rules! projection_names {
-    ($($(#[$meta:meta])* $variant:ident $module:ident $switch:ident $($needed:ident)*,)*) => {
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case")]
-        pub enum ProjectionName {
-            /// Rays through one point and a flat window.
-            Perspective,
-            /// Parallel rays.
-            Orthographic,
-            $($(#[$meta])* $variant,)*
-        }
-
-        impl ProjectionName {
-            pub const ALL: &[Self] = &[Self::Perspective, Self::Orthographic, $(Self::$variant,)*];
-
-            /// The name.
-            pub fn name(self) -> &'static str {
-                match self {
-                    Self::Perspective => "perspective",
-                    Self::Orthographic => "orthographic",
-                    $(Self::$variant => stringify!($module),)*
-                }
-            }
+/// The places of keys by their names, of those that belong to some projections alone.
+macro_rules! places {
+    ($table:ident, $name:ident: $($key:ident)*) => {
+        match $name {
+            $(stringify!($key) => $table.$key.as_ref().map(|written| &written.place),)*
+            _ => None,
         }
     };
 }
-camera_table!(projection_names);
+
+impl CameraTable {
+    fn place_of(&self, key: &str) -> Option<&Place> {
+        places!(self, key: height vfov azimuth elevation fov mapping fit layout focal principal_point image_size radial tangential
+            calibration shift stretch aperture stereo)
+    }
+
+    /// Checks the keys that are written beside such a projection.
+    ///
+    /// # Errors
+    /// The place of a key that does not belong there, or of what lacks one, and a sentence about it.
+    pub fn check_keys(&self, projection: ProjectionName) -> Result<(), (&Place, String)> {
+        for rule in RULES {
+            let Some(place) = self.place_of(rule.key) else { continue };
+            if !rule.projections.contains(&projection) {
+                let names: Vec<String> = rule.projections.iter().map(|name| format!("\"{}\"", name.name())).collect();
+                return Err((place, format!("`{}` belongs to projection = {}", rule.key, names.join(" or "))));
+            }
+            if self.calibration.is_some() && CALIBRATED.contains(&rule.key) {
+                return Err((place, format!("`{}` is in the file that `calibration` names", rule.key)));
+            }
+        }
+        match needed(projection) {
+            Some(key) if self.calibration.is_none() && self.place_of(key).is_none() => {
+                Err((&self.look_at.place, format!("the camera needs the key `{key}`")))
+            }
+            _ => Ok(()),
+        }
+    }
+}
 
 /// Two eyes, the camera's position in the middle. With `equirectangular` and `cylindrical` they turn with the direction (omnidirectional stereo).
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { layout = \"top_bottom\", eye_distance = 0.064 }")]
 pub struct StereoEntry {
-    /// Where the pictures of the eyes lie.
+    /// The places of both eyes' pictures.
     pub layout: ChoiceName<StereoLayout>,
     /// From one eye to the other, in scene units.
     pub eye_distance: Checked<Positive>,

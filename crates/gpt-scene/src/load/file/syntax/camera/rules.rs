@@ -3,18 +3,14 @@
 use schemars::Schema;
 use serde_json::{Value, json};
 
-use super::ProjectionName::{
-    BrownConrady, CubeMap, Cylindrical, Equirectangular, Fisheye, KannalaBrandt, Orthographic, Perspective,
+use super::projection_name::ProjectionName::{
+    self, BrownConrady, CubeMap, Cylindrical, Equirectangular, Fisheye, KannalaBrandt, Orthographic, Perspective,
 };
-use super::{CameraTable, ProjectionName};
-use crate::load::place::Place;
 
 /// A key that belongs to some projections alone.
-struct Rule {
-    key: &'static str,
-    projections: &'static [ProjectionName],
-    /// Where it is written, if it is.
-    written: fn(&CameraTable) -> Option<&Place>,
+pub struct Rule {
+    pub key: &'static str,
+    pub projections: &'static [ProjectionName],
 }
 
 macro_rules! rules {
@@ -22,12 +18,12 @@ macro_rules! rules {
         &[$(Rule {
             key: stringify!($key),
             projections: &[$($projection),*],
-            written: |table| table.$key.as_ref().map(|written| &written.place),
         }),*]
     };
 }
 
-const RULES: &[Rule] = rules! {
+/// Keys that belong to some projections alone.
+pub const RULES: &[Rule] = rules! {
     height [Orthographic];
     vfov [Perspective];
     azimuth [Equirectangular, Cylindrical];
@@ -49,10 +45,10 @@ const RULES: &[Rule] = rules! {
 };
 
 /// The keys that a calibration states.
-const CALIBRATED: [&str; 5] = ["focal", "principal_point", "image_size", "radial", "tangential"];
+pub const CALIBRATED: [&str; 5] = ["focal", "principal_point", "image_size", "radial", "tangential"];
 
 /// The key that a projection cannot be without.
-fn needed(projection: ProjectionName) -> Option<&'static str> {
+pub fn needed(projection: ProjectionName) -> Option<&'static str> {
     match projection {
         Perspective => Some("vfov"),
         Orthographic => Some("height"),
@@ -60,30 +56,6 @@ fn needed(projection: ProjectionName) -> Option<&'static str> {
         BrownConrady | KannalaBrandt => Some("focal"),
         Equirectangular | Cylindrical | CubeMap => None,
     }
-}
-
-/// What is wrong with the keys that are written beside such a projection, and where.
-pub fn misplaced(table: &CameraTable, projection: ProjectionName) -> Result<(), (&Place, String)> {
-    for Rule { key, projections, written } in RULES {
-        let Some(place) = written(table) else { continue };
-        if !projections.contains(&projection) {
-            let names: Vec<String> = projections.iter().map(|name| format!("\"{}\"", name.name())).collect();
-            return Err((place, format!("`{key}` belongs to projection = {}", names.join(" or "))));
-        }
-        if table.calibration.is_some() && CALIBRATED.contains(key) {
-            return Err((place, format!("`{key}` is in the file that `calibration` names")));
-        }
-    }
-    match needed(projection) {
-        Some(key) if table.calibration.is_none() && !is_written(table, key) => {
-            Err((&table.look_at.place, format!("the camera needs the key `{key}`")))
-        }
-        _ => Ok(()),
-    }
-}
-
-fn is_written(table: &CameraTable, key: &str) -> bool {
-    RULES.iter().any(|rule| rule.key == key && (rule.written)(table).is_some())
 }
 
 /// Adds to a camera's schema which keys each projection has.

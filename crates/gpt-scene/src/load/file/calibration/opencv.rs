@@ -1,7 +1,7 @@
 //! A camera as OpenCV's samples and ROS write it: `camera_matrix`, `distortion_coefficients`, `image_width`, `image_height`.
 
+use super::camera::{Calibration, Lens, check};
 use super::yaml::{self, Node, Value};
-use super::{Calibration, Lens, check};
 use crate::load::error::SceneError;
 
 /// Names under which files have the coefficients.
@@ -73,7 +73,9 @@ fn stated_lens(root: &Node) -> Result<(Option<Lens>, usize), Mistake> {
             "plumb_bob" | "rational_polynomial" | "none" | "" => Lens::BrownConrady,
             "equidistant" | "fisheye" => Lens::KannalaBrandt,
             other => {
-                let message = format!("the distortion model `{other}` cannot be said here; plumb_bob, rational_polynomial and equidistant can");
+                let message = format!(
+                    "the distortion model `{other}` cannot be said here; plumb_bob, rational_polynomial and equidistant can"
+                );
                 return Err((node.line, message));
             }
         };

@@ -1,8 +1,8 @@
 //! COLMAP's list of cameras, cameras.txt: lines of CAMERA_ID, MODEL, WIDTH, HEIGHT and the model's parameters.
 
-use super::{Calibration, Lens, check};
+use super::camera::{Calibration, Lens, check};
 use crate::load::error::SceneError;
-use crate::load::file::did_you_mean;
+use crate::load::file::suggestion::did_you_mean;
 
 /// A model of COLMAP's (src/colmap/sensor/models.h).
 struct Model {
@@ -53,7 +53,7 @@ pub fn cameras(name: &str, text: &str, lens: Option<Lens>) -> Result<Vec<Calibra
 /// The camera of a line.
 ///
 /// # Errors
-/// What is wrong with it, and perhaps what would be right.
+/// A sentence about what is wrong with it, and perhaps one about what would be right.
 fn camera(line: &str, lens: Option<Lens>) -> Result<Calibration, (String, Option<String>)> {
     let plain = |message: String| (message, None);
     let mut words = line.split_whitespace();
@@ -61,7 +61,8 @@ fn camera(line: &str, lens: Option<Lens>) -> Result<Calibration, (String, Option
     let id = next("number")?;
     let model_name = next("model")?;
     let (width, height) = (next("width")?, next("height")?);
-    let whole = |what: &str, word: &str| word.parse::<u32>().map_err(|_| plain(format!("the {what} is a whole number, not `{word}`")));
+    let whole =
+        |what: &str, word: &str| word.parse::<u32>().map_err(|_| plain(format!("the {what} is a whole number, not `{word}`")));
     let id = whole("camera's number", id)?;
     let image_size = [whole("width", width)?, whole("height", height)?];
     let Some(model) = MODELS.iter().find(|model| model.name == model_name) else {
