@@ -38,7 +38,7 @@ fn every_camera_comes_back_from_a_scene_file() {
     for example in load::file::CAMERA_EXAMPLES {
         let size = format!("[film]\nsize = [{}, {}]\n", example.size[0], example.size[1]);
         let scene = load::load_toml_str(&with_camera(&size, example.keys), "test.toml", Path::new("")).expect(example.name);
-        let written = gpt::save::as_scene_file(&scene, Path::new("out.toml")).expect("it can be written");
+        let written = gpt::scene_writer::as_scene_file(&scene, Path::new("out.toml")).expect("it can be written");
         let text = String::from_utf8(written.content).expect("text");
         let read = load::load_toml_str(&text, "out.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert_eq!(read.camera, scene.camera, "{}\n{text}", example.name);

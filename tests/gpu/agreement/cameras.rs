@@ -18,7 +18,7 @@ fn scene(keys: &str, size: [u32; 2], more: &str) -> Scene {
          [[shape]]\ntype = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\
          [[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"red\"\n\
          [[shape]]\ntype = \"box\"\nmin = [2, -1, 5]\nmax = [3, 1, 7]\nmaterial = \"red\"\n\
-         [[light]]\ntype = \"sky\"\nsun_elevation = 40\n",
+         [[light]]\ntype = \"sky\"\nzenith = [0.3, 0.5, 1]\nhorizon = [1, 0.9, 0.8]\nground = [0.3, 0.25, 0.2]\n",
         size[0], size[1]
     );
     load::load_toml_str(&text, "test.toml", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}: {keys}"))

@@ -105,7 +105,7 @@ impl CameraModel for Fisheye {
         }
         let words = if is_possible { "at most" } else { "below" };
         let name = crate::choice::Choice::name(self.mapping);
-        Err(format!("the field of view of an {name} fisheye must be above 0 and {words} {most} degrees, and is {fov}"))
+        Err(format!("the field of view of a fisheye that is {name} must be above 0 and {words} {most} degrees, and is {fov}"))
     }
 
     fn direction(&self, place: &ViewPlace) -> Option<DVec3> {
