@@ -29,7 +29,7 @@ fn every_camera_shows_points_where_its_formula_says() {
 fn with_camera(size: &str, keys: &str) -> String {
     format!(
         "{size}[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n{keys}[[light]]\ntype = \"environment\"\nradiance = 1\n\
-         [[material]]\nname = \"m\"\ntype = \"diffuse\"\n[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n"
+         [[material]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n"
     )
 }
 

@@ -239,7 +239,7 @@ fn right_files() -> Vec<Value> {
         let [width, height] = example.size;
         texts.push(format!(
             "film = {{ size = [{width}, {height}] }}\n[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n{}[[light]]\ntype = \"environment\"\nradiance = 1\n\
-             [[material]]\nname = \"m\"\ntype = \"diffuse\"\n[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n",
+             [[material]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n",
             example.keys
         ));
     }

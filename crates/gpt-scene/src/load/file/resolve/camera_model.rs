@@ -171,12 +171,14 @@ impl Resolver<'_> {
         camera.check_views(size).map_err(|message| {
             let place = of_key(written.stereo.as_ref().map(|stereo| &stereo.place));
             let [columns, rows] = camera.tiles();
-            let side = (size[0] / columns).max(1);
+            let [width, height] = [(size[0] / columns).max(1), (size[1] / rows).max(1)];
+            // The sides of a cube are squares.
+            let height = if matches!(camera.projection, Projection::CubeMap(_)) { width } else { height };
             let error = self.error(&place, message);
             if columns * rows == 1 {
                 error
             } else {
-                error.with_help(format!("a right size = [{}, {}] in [film]", side * columns, side * rows))
+                error.with_help(format!("a right size = [{}, {}] in [film]", width * columns, height * rows))
             }
         })?;
         let share = camera.blind_share(size);
