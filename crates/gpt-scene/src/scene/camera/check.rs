@@ -67,7 +67,7 @@ impl Camera {
     /// Checks that a picture of so many pixels divides into its views, and that these see something.
     pub(crate) fn check_views(&self, film: [u32; 2]) -> Check {
         let [columns, rows] = self.tiles();
-        if film[0] % columns != 0 || film[1] % rows != 0 {
+        if !film[0].is_multiple_of(columns) || !film[1].is_multiple_of(rows) {
             let [width, height] = film;
             return Err(format!(
                 "its picture has {columns} × {rows} views, into which {width} × {height} pixels cannot be divided evenly"

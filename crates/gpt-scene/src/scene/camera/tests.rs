@@ -143,7 +143,7 @@ fn a_polynomial_that_turns_back_ends_what_is_seen() {
         let shown = 100.0 * theta * (1.0 - theta * theta / 3.0);
         assert!((angle(shown).expect("it is seen") - theta).abs() < 1e-12);
     }
-    assert_eq!(blind::blind_share(&model, DVec2::splat(400.0)) > 0.5, true);
+    assert!(blind::blind_share(&model, DVec2::splat(400.0)) > 0.5);
 }
 
 /// Beside each other: the same thing at the same place at the distance of convergence, and apart elsewhere.
