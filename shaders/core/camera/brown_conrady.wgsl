@@ -28,9 +28,11 @@ fn radius_shown_at(distance: f32) -> f32 {
         } else {
             low = at;
         }
-        var next = at - found / (d.x + 2.0 * at * at * d.y);
-        if !(next >= low && next <= high) {
-            next = 0.5 * (low + high);
+        let slope = d.x + 2.0 * at * at * d.y;
+        var next = 0.5 * (low + high);
+        if slope > 0.0 {
+            let newton = at - found / slope;
+            next = select(next, newton, newton >= low && newton <= high);
         }
         let change = abs(next - at);
         at = next;

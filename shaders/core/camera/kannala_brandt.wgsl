@@ -16,9 +16,11 @@ fn angle_shown_at(distance: f32) -> f32 {
         } else {
             low = at;
         }
-        var next = at - found / (1.0 + s * (3.0 * k.x + s * (5.0 * k.y + s * (7.0 * k.z + s * 9.0 * k.w))));
-        if !(next >= low && next <= high) {
-            next = 0.5 * (low + high);
+        let slope = 1.0 + s * (3.0 * k.x + s * (5.0 * k.y + s * (7.0 * k.z + s * 9.0 * k.w)));
+        var next = 0.5 * (low + high);
+        if slope > 0.0 {
+            let newton = at - found / slope;
+            next = select(next, newton, newton >= low && newton <= high);
         }
         let change = abs(next - at);
         at = next;

@@ -229,6 +229,7 @@ impl<'s> Page<'s> {
             item.replacen("number", "numbers", 1).replacen("text", "texts", 1)
         };
         match value["maxItems"].as_u64() {
+            Some(count) if value["minItems"].as_u64().is_none_or(|least| least != count) => format!("up to {count} {items}"),
             Some(count) => format!("{count} {items}"),
             None => format!("a list of {items}{}", if value["items"]["type"] == "array" { " each" } else { "" }),
         }
