@@ -6,7 +6,7 @@ use crate::scene::check::Check;
 
 /// The table of camera models: a row for each projection whose rays are no straight lines through a flat window. From these rows the kinds of
 /// [`Projection`](super::Projection) are made, the switches of shaders, and what chooses among their files, so a model is a row here, a file
-/// of its module's name beside this one, which is its meaning in f64, and one in `shaders/core/camera`; its keys stand in `load/file/camera.rs`.
+/// of its module's name beside this one, which is its meaning in f64, and one in `shaders/core/camera`; its keys stand in `load/file/syntax/camera`.
 ///
 /// A row: variant of `Projection`, which is also the name of its data's type; module, which scene files call it by; the name of the switch that
 /// compiles its shader; then other switches that it needs.
