@@ -90,7 +90,8 @@ impl Document {
         let (mut prose, mut commands, mut block) = (String::new(), Vec::new(), None);
         for line in text.lines() {
             match (line.strip_prefix("```"), block) {
-                (Some(language), None) => block = Some(language),
+                // Words behind the language are for scripts/pages.
+                (Some(language), None) => block = Some(language.split(' ').next().unwrap_or("")),
                 (Some(_), Some(_)) => block = None,
                 (None, Some("sh")) => commands.push(line.split(" #").next().unwrap_or(line).to_owned()),
                 (None, Some(_)) => {}
@@ -272,8 +273,8 @@ fn documents_name_what_exists() {
 fn the_readmes_scene_is_the_file_it_names() {
     let readme = fs::read_to_string(project().join("README.md")).expect("the README");
     let scene = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene in the README");
-    assert_eq!(scene, fs::read_to_string(project().join("docs/still-life.toml")).expect("the scene's file"));
-    let check = Command::new(env!("CARGO_BIN_EXE_gpt")).args(["check", "docs/still-life.toml"]).current_dir(project()).output();
+    assert_eq!(scene, fs::read_to_string(project().join("docs/hello.toml")).expect("the scene's file"));
+    let check = Command::new(env!("CARGO_BIN_EXE_gpt")).args(["check", "docs/hello.toml"]).current_dir(project()).output();
     let check = check.expect("the program starts");
     assert!(check.status.success(), "{}", text(&check.stderr));
 }
