@@ -12,8 +12,8 @@ const FOLDERS: [&str; 10] =
     ["src/", "crates/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
 /// Documents about the past: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
-/// Flags of cargo and of openjd that documents use.
-const FLAGS_OF_OTHERS: [&str; 10] = [
+/// Flags of cargo, openjd, docker, gh and oiiotool that documents use.
+const FLAGS_OF_OTHERS: [&str; 13] = [
     "--release",
     "--locked",
     "--path",
@@ -24,6 +24,9 @@ const FLAGS_OF_OTHERS: [&str; 10] = [
     "--step",
     "--run-dependencies",
     "--eraseattrib",
+    "--info",
+    "--repo",
+    "--rm",
 ];
 
 /// The flags of each command of the program, from its help.
