@@ -139,7 +139,9 @@ fn a_download_with_another_sum_is_refused() {
     let output = download("good", "");
     assert!(output.status.success() && place.path(text(&output.stdout).trim()).join("gpt").is_file(), "{output:?}");
     let other = "0".repeat(64);
-    let beside = fs::read_dir(place.path(&format!("releases/download/v{version}"))).expect("a release").map(|entry| entry.expect("a file").path());
+    let beside = fs::read_dir(place.path(&format!("releases/download/v{version}")))
+        .expect("a release")
+        .map(|entry| entry.expect("a file").path());
     for sum in beside.filter(|path| path.extension().is_some_and(|ending| ending == "sha256")) {
         fs::write(sum, format!("{other}  archive\n")).expect("a sum");
     }
