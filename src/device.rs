@@ -68,7 +68,7 @@ fn no_adapter_notice(why: &str) -> String {
 
 fn on_the_cpu(scene: &Scene, options: &PlanOptions) -> Result<Box<dyn Renderer>, RenderError> {
     let effort = Effort { pace: Pace::Processor, time_limit: options.time_limit };
-    let renderer = ReferenceRenderer::of_layer(scene, options.layer, effort)?;
+    let renderer = ReferenceRenderer::of_length(scene, options.layer, effort)?;
     Ok(Box::new(match options.most_film_pixels {
         Some(pixels) => renderer.with_film_pixels(pixels),
         None => renderer,

@@ -8,7 +8,6 @@ use crate::cpu::ReferenceRenderer;
 use crate::denoise::library::OidnError;
 use crate::film::KernelLayer;
 use crate::gpu::{Device, GpuRenderer};
-use crate::learn::Effort;
 use crate::load::SceneError;
 use crate::output::{Image, OutputError, ReadError};
 use crate::plan::PlanOptions;
@@ -122,7 +121,7 @@ impl Devices {
         let scene = &*layer.map_or(Cow::Borrowed(scene), |layer| layer_scene(scene, layer));
         Ok(match self.get(choice)? {
             Some(device) => Box::new(GpuRenderer::on(&device, scene, &PlanOptions { layer, ..PlanOptions::default() })?),
-            None => Box::new(ReferenceRenderer::of_layer(scene, layer, Effort::default())?),
+            None => Box::new(ReferenceRenderer::of_layer(scene, layer)?),
         })
     }
 

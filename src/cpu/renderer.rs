@@ -99,12 +99,17 @@ impl Add for Counts {
 impl ReferenceRenderer {
     /// Builds what is needed to trace paths. Fails on what the reference cannot render.
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
-        Self::of_layer(scene, None, Effort::default())
+        Self::of_layer(scene, None)
     }
 
     /// [`ReferenceRenderer::new`] to make a layer in place of the picture, of a scene that is [made
-    /// ready](crate::reference::layer::layer_scene) for it, learning as much as pays in a render of this length.
-    pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>, effort: Effort) -> Result<Self, RenderError> {
+    /// ready](crate::reference::layer::layer_scene) for it.
+    pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>) -> Result<Self, RenderError> {
+        Self::of_length(scene, layer, Effort::default())
+    }
+
+    /// [`ReferenceRenderer::of_layer`] for a render of this length, by which it learns.
+    pub fn of_length(scene: &Scene, layer: Option<KernelLayer>, effort: Effort) -> Result<Self, RenderError> {
         let start = Instant::now();
         let Settled { scene, because, depends_on_view, integrator, .. } = learn::settle(scene, effort)?;
         Ok(Self {
@@ -191,12 +196,12 @@ impl ReferenceRenderer {
         let mut limiter = PathLimiter { rays: 0, stopping: &batch.stopping, gave_up: None };
         let (mut samples, mut traced, mut non_finite) = (0, 0_u64, 0);
         let mut clamp = Clamp::new(self.integrator.scene().render.clamp, self.layer);
-        let camera = self.integrator.view_axis();
+        let depth = self.integrator.depth_measure();
         for point in points {
             let sampler = PathSampler::new(sampling, pixel, point);
             let mut radiance = Spectrum::BLACK;
             if let Some(layer) = self.layer {
-                let mut visitor = LayerVisitor::new(layer, camera, &mut limiter);
+                let mut visitor = LayerVisitor::new(layer, depth, &mut limiter);
                 let found = clamp.darken(self.integrator.radiance(x, y, &sampler, &mut visitor));
                 let Some(value) = visitor.value(found) else {
                     traced += 1;
@@ -395,7 +400,7 @@ impl Renderer for ReferenceRenderer {
         }
         let (layer, effort) = (self.layer, self.effort);
         drop(self);
-        Ok(Box::new(Self::of_layer(scene, layer, effort)?))
+        Ok(Box::new(Self::of_length(scene, layer, effort)?))
     }
 
     fn holds_whole_film(&self) -> bool {

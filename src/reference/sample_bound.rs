@@ -260,7 +260,8 @@ fn glass_is_closed(scene: &Scene) -> Result<(), Unbounded> {
         if !is_closed(shape) {
             return none(format!("{} is of glass and not closed", shape.label));
         }
-        let margin = scene.camera.aperture.as_ref().map_or(0.0, |aperture| aperture.radius);
+        let lens = scene.camera.aperture.as_ref().map_or(0.0, |aperture| aperture.radius);
+        let margin = lens + scene.camera.stereo.map_or(0.0, |stereo| 0.5 * stereo.eye_distance);
         let holds = |[low, high]: [glam::DVec3; 2]| camera.cmpge(low - margin).all() && camera.cmple(high + margin).all();
         if shape.bounds().is_none_or(holds) {
             return none(format!("the camera may be within {}, which is of glass", shape.label));

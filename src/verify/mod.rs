@@ -161,7 +161,7 @@ pub fn verify_watched(
     observer: &dyn Observer,
 ) -> Result<Option<Verdict>, RenderError> {
     let mut gpu = GpuRenderer::on(&Device::open_for(choice, options)?, scene, options)?;
-    let mut cpu = ReferenceRenderer::of_layer(scene, None, gpu.effort())?;
+    let mut cpu = ReferenceRenderer::of_length(scene, None, gpu.effort())?;
     compare_watched(scene, &mut gpu, &mut cpu, None, observer)
 }
 
@@ -177,7 +177,7 @@ pub fn verify_on(
     share: Option<shares::MeasuredShare>,
 ) -> Result<Verdict, RenderError> {
     let mut gpu = GpuRenderer::on(device, scene, options)?;
-    let mut cpu = ReferenceRenderer::of_layer(scene, None, gpu.effort())?;
+    let mut cpu = ReferenceRenderer::of_length(scene, None, gpu.effort())?;
     let planted = planted(&gpu, options);
     let verdict = compare(scene, &mut gpu, &mut cpu, share)?;
     Ok(Verdict { planted, ..verdict })

@@ -9,7 +9,6 @@ use glam::DVec3;
 use gpt::cpu::ReferenceRenderer;
 use gpt::film::{Band, KernelLayer};
 use gpt::gpu::GpuRenderer;
-use gpt::learn::Effort;
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::layer::layer_scene;
@@ -40,10 +39,7 @@ fn pixels(renderer: &mut dyn Renderer, height: u32) -> Pixels {
 
 fn on_cpu(scene: &Scene, layer: KernelLayer) -> Pixels {
     let scene = layer_scene(scene, layer);
-    pixels(
-        &mut ReferenceRenderer::of_layer(&scene, Some(layer), Effort::default()).expect("it can be rendered"),
-        scene.film.size[1],
-    )
+    pixels(&mut ReferenceRenderer::of_layer(&scene, Some(layer)).expect("it can be rendered"), scene.film.size[1])
 }
 
 /// By these ways in which stages run; None without a device.
