@@ -72,7 +72,7 @@ impl RenderOptions {
     pub(super) fn plan_options(&self) -> PlanOptions {
         // A region of some columns leaves pixels out.
         let pixel_list = self.adaptive || self.crop.is_some();
-        PlanOptions { pixel_list, most_film_pixels: self.most_film_pixels(), ..self.plan.clone() }
+        PlanOptions { pixel_list, most_film_pixels: self.most_film_pixels(), time_limit: self.time_limit, ..self.plan.clone() }
     }
 
     /// How many pixels of the film are kept at a time, where that is bounded: of a region about as many as it has, or so few that they do not matter. A
