@@ -160,7 +160,7 @@ def cameras():
         'projection = "cube_map"\nlayout = "grid"',
         'projection = "equirectangular"\nstereo = { layout = "top_bottom", eye_distance = 0.3 }',
     )
-    montage("cameras.jpg", 3, [("hall", Way(key, [], {"vfov     = 70": key}), 256) for key in keys])
+    montage("cameras.jpg", 3, [("hall", Way(key, [], {"vfov     = 70": key}), 16) for key in keys])
 
 
 def layers():
