@@ -10,7 +10,6 @@ mod colour;
 mod converter;
 mod document;
 mod emitter;
-mod handedness;
 mod input;
 mod limits;
 mod media;
@@ -44,7 +43,7 @@ use self::met_media::MetMedia;
 use self::plugin::Plugin;
 use super::error::SceneError;
 use super::files::Files;
-use super::import::Description;
+use super::import::{Description, handedness};
 use super::printable::short_list;
 
 /// The parts of a file to read.

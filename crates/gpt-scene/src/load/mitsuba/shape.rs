@@ -12,7 +12,7 @@ use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::file::shape::{self as shapes, ShapeEntry};
 use crate::load::file::value::Located;
-use crate::load::import::{Input, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube};
+use crate::load::import::{Input, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, turn_inside_out, unit_cube};
 use crate::load::memory;
 use crate::scene::Mesh;
 
@@ -342,10 +342,4 @@ fn evened(map: &DAffine3) -> DAffine3 {
     let y = map.matrix3.y_axis.reject_from_normalized(x).normalize();
     let z = x.cross(y) * map.matrix3.determinant().signum();
     DAffine3 { matrix3: DMat3::from_cols(x, y, z) * scale, translation: map.translation }
-}
-
-/// Fronts become backs.
-pub fn turn_inside_out(mesh: &mut Mesh) {
-    mesh.faces.iter_mut().for_each(|face| face.swap(1, 2));
-    mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
 }

@@ -4,11 +4,9 @@
 //! - `phase`: its phase function.
 //! - `boundary`: where it is, `interior` and `exterior` of shapes.
 //! - `volume`: values in space, `constvolume` and `gridvolume`.
-//! - `presets`: media by name, as versions before 2 had them.
 
 mod boundary;
 mod phase;
-mod presets;
 #[cfg(test)]
 mod tests;
 mod volume;
@@ -24,6 +22,7 @@ use crate::load::file::colour::Rgb;
 use crate::load::file::medium::MediumEntry;
 use crate::load::file::value::{Checked, Exactly, LARGEST, Located, NonNegative};
 use crate::load::file::volume::{OutsideName, VolumeEntry};
+use crate::load::import::measured_media;
 use crate::spectrum::Spectrum;
 
 impl Converter<'_> {
@@ -95,10 +94,10 @@ impl Converter<'_> {
         let scale = self.plain_number(plugin, "scale", 1.0)?;
         if let Some(name) = plugin.text("material")? {
             // They are given per millimetre.
-            let [absorption, scattering] = presets::coefficients(name).ok_or_else(|| {
+            let [absorption, scattering] = measured_media::coefficients(name).ok_or_else(|| {
                 plugin
                     .error(format!("nothing is known of the medium `{name}`"))
-                    .with_help(format!("there are {}", presets::names().join(", ")))
+                    .with_help(format!("there are {}", measured_media::names().join(", ")))
             })?;
             return of_coefficients(plugin, absorption * scale, scattering * scale);
         }

@@ -1,0 +1,1 @@
+//! Scenes of pbrt, and what is wrong with them.
