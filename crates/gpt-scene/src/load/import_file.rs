@@ -88,7 +88,9 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
 fn refuse_choices(name: &str, options: &LoadOptions) -> Result<(), SceneError> {
     let refused = |what: String| Err(SceneError::in_file(name, what));
     match (&options.camera, options.definitions.first(), &options.variant) {
-        (Some(camera), ..) => refused(format!("there is no camera `{camera}` to choose: a scene of pbrt has one, without a name")),
+        (Some(camera), ..) => {
+            refused(format!("there is no camera `{camera}` to choose: a scene of pbrt has one, without a name"))
+        }
         (_, Some((key, _)), _) => refused(format!("nothing in the scene is called ${key}: a scene of pbrt has no parameters")),
         (.., Some(variant)) => refused(format!("there is no variant `{variant}`: a scene of pbrt has no variants of materials")),
         (None, None, None) => Ok(()),

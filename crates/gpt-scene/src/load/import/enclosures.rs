@@ -4,7 +4,7 @@
 //! what it holds, and is within whatever is around it. So what is around a shape is found by the boxes around all of them, and what a shape says
 //! otherwise is reported.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
@@ -32,12 +32,14 @@ pub struct Sides {
     pub is_boundary: bool,
 }
 
-/// A shape that light goes through.
+/// A shape that bounds a medium, or a body that is within one.
 struct Enclosure {
     place: Place,
     /// Its number in the scene.
     shape: usize,
     sides: Sides,
+    /// Light goes through its surface.
+    is_crossed: bool,
     /// The lower and upper corner of the box around it; None of what is infinite.
     bounds: Option<[DVec3; 2]>,
 }
@@ -65,38 +67,44 @@ pub struct Enclosures {
     filled: HashMap<(String, String), String>,
     /// Materials that light gets into and is refracted by, by their names.
     bodies: HashMap<String, bool>,
+    /// Materials that light goes through.
+    crossed: HashMap<String, bool>,
     /// The name of a medium that neither takes nor gives.
     clear: Option<String>,
 }
 
 impl Enclosures {
-    /// Notes a shape that is about to be added to the scene, with the material that it has. Shapes that no light goes through bound nothing.
+    /// Notes a shape that is about to be added to the scene, with the material that it has.
     pub fn note(&mut self, scene: &Description, entry: &ShapeEntry, sides: Sides, place: &Place) {
         let Some(material) = entry.common().material.map(|name| name.value.clone()) else { return };
-        let lets_through = if sides.is_boundary { is_crossed(scene, &material) } else { self.is_body(scene, &material) };
-        if lets_through {
+        if sides.is_boundary || self.is_body(scene, &material) {
+            let is_crossed = self.is_crossed(scene, &material);
             let bounds = scene.bounds_of(entry);
-            self.shapes.push(Enclosure { place: place.clone(), shape: scene.file.shape.len(), sides, bounds });
+            self.shapes.push(Enclosure { place: place.clone(), shape: scene.file.shape.len(), sides, is_crossed, bounds });
         }
     }
 
     /// The material of a shape of a group, which is placed by its instances: what is around those is the camera's medium.
-    pub fn of_group(&mut self, scene: &mut Description, material: String, sides: &Sides, place: &Place) -> Result<String, String> {
-        let lets_through = if sides.is_boundary { is_crossed(scene, &material) } else { self.is_body(scene, &material) };
-        if !lets_through {
-            return Ok(material);
-        }
-        let medium = match (&sides.inside, sides.is_boundary) {
-            (Some(inside), true) => inside.clone(),
-            (None, true) => self.clear(scene, place),
-            (_, false) => match &self.around_camera {
-                Some(around) => around.clone(),
-                None => return Ok(material),
-            },
-        };
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of_group(
+        &mut self,
+        scene: &mut Description,
+        material: String,
+        sides: &Sides,
+        place: &Place,
+    ) -> Result<String, String> {
         if sides.is_boundary && sides.outside != self.around_camera {
             report_outside(scene, sides, self.around_camera.is_some(), place);
         }
+        let is_body = self.is_body(scene, &material);
+        let medium = match (&sides.inside, sides.is_boundary, self.around_camera.clone()) {
+            (Some(inside), true, _) => inside.clone(),
+            (None, true, _) if self.is_crossed(scene, &material) => self.clear(scene, place),
+            (_, false, Some(around)) if is_body => around,
+            _ => return Ok(material),
+        };
         self.fill(scene, material, medium, place)
     }
 
@@ -135,6 +143,11 @@ impl Enclosures {
         name
     }
 
+    /// Light goes through a surface of this material, as it is or bent.
+    fn is_crossed(&mut self, scene: &Description, name: &str) -> bool {
+        *self.crossed.entry(name.to_owned()).or_insert_with(|| is_crossed(scene, name))
+    }
+
     /// Light gets into bodies of this material, which bends it.
     fn is_body(&mut self, scene: &Description, name: &str) -> bool {
         if let Some(known) = self.bodies.get(name) {
@@ -144,11 +157,8 @@ impl Enclosures {
         let is_body = match find(scene, name) {
             Some(entry @ (MaterialEntry::Glass(_) | MaterialEntry::RoughGlass(_))) => !is_thin(entry),
             Some(entry @ MaterialEntry::Principled(keys)) => keys.transmission.is_some() && !is_thin(entry),
-            Some(MaterialEntry::Blend(keys)) => {
-                let parts = keys.materials.0.each_ref().map(|part| part.value.clone());
-                parts.iter().any(|part| self.is_body(scene, part))
-            }
-            _ => false,
+            Some(entry) => entry.parts().iter().any(|part| self.is_body(scene, &part.value)),
+            None => false,
         };
         self.bodies.insert(name.to_owned(), is_body);
         is_body
@@ -163,7 +173,7 @@ impl Enclosures {
         if !shapes.iter().any(|shape| shape.sides.is_boundary) && self.around_camera.is_none() {
             return Ok(());
         }
-        let mut hulls: Vec<&Enclosure> = shapes.iter().filter(|shape| shape.sides.is_boundary).collect();
+        let mut hulls: Vec<&Enclosure> = shapes.iter().filter(|shape| shape.sides.is_boundary && shape.is_crossed).collect();
         if hulls.len().saturating_mul(shapes.len()) > MOST_PAIRS {
             hulls.clear();
         }
@@ -180,9 +190,9 @@ impl Enclosures {
             }
             let medium = match (&shape.sides.inside, shape.sides.is_boundary, around) {
                 (Some(inside), true, _) => inside.clone(),
-                (None, true, _) => self.clear(scene, &shape.place),
+                (None, true, _) if shape.is_crossed => self.clear(scene, &shape.place),
                 (_, false, Some(around)) => around,
-                (_, false, None) => continue,
+                _ => continue,
             };
             let material = scene.file.shape[shape.shape].value.common().material.cloned();
             if let Some(material) = material {
@@ -219,12 +229,20 @@ fn find<'d>(scene: &'d Description, name: &str) -> Option<&'d MaterialEntry> {
 
 /// Light goes through a surface of this material, as it is or bent.
 fn is_crossed(scene: &Description, name: &str) -> bool {
-    match find(scene, name) {
-        Some(MaterialEntry::Glass(_) | MaterialEntry::RoughGlass(_) | MaterialEntry::Pass(_)) => true,
-        Some(MaterialEntry::Principled(keys)) => keys.transmission.is_some(),
-        Some(entry @ MaterialEntry::Blend(_)) => entry.parts().iter().any(|part| is_crossed(scene, &part.value)),
-        _ => false,
+    // Parts that many blends share are looked at once.
+    let mut seen = HashSet::new();
+    let mut to_visit = vec![name];
+    while let Some(name) = to_visit.pop() {
+        match find(scene, name).filter(|_| seen.insert(name)) {
+            Some(MaterialEntry::Glass(_) | MaterialEntry::RoughGlass(_) | MaterialEntry::Pass(_)) => return true,
+            Some(MaterialEntry::Principled(keys)) if keys.transmission.is_some() => return true,
+            // What is below the lowest interface is on the other side.
+            Some(MaterialEntry::Layered(keys)) => to_visit.extend(keys.interfaces.0.last().map(|part| part.value.as_str())),
+            Some(entry) => to_visit.extend(entry.parts().iter().map(|part| part.value.as_str())),
+            None => {}
+        }
     }
+    false
 }
 
 fn is_thin(entry: &MaterialEntry) -> bool {
@@ -244,9 +262,11 @@ fn is_thin(entry: &MaterialEntry) -> bool {
 ///
 /// # Errors
 /// A sentence about a number that is out of range.
-pub fn thin_wall(scene: &mut Description, wall: &MaterialEntry, place: &Place) -> Result<MaterialEntry, String> {
+fn thin_wall(scene: &mut Description, wall: &MaterialEntry, place: &Place) -> Result<MaterialEntry, String> {
     let (ior, reflectance, is_tinted) = match wall {
-        MaterialEntry::Glass(keys) => (keys.ior.as_ref().map(|ior| ior.value), keys.reflectance.clone(), keys.transmittance.is_some()),
+        MaterialEntry::Glass(keys) => {
+            (keys.ior.as_ref().map(|ior| ior.value), keys.reflectance.clone(), keys.transmittance.is_some())
+        }
         _ => (None, None, true),
     };
     if is_tinted {

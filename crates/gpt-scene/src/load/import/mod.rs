@@ -21,7 +21,9 @@ pub use description::{Description, mesh_of, pays_as_instances};
 pub use enclosures::{Enclosures, Sides};
 pub use input::Input;
 pub use maps::{camera_at, is_uniform, world_direction};
-pub use mesh::{barycentric_coordinates, cylinder, disk, grid_sphere, sheet, smooth_by_index, square, turn_inside_out, unit_cube};
+pub use mesh::{
+    barycentric_coordinates, cylinder, disk, grid_sphere, sheet, smooth_by_index, square, turn_inside_out, unit_cube,
+};
 pub use relief::Relief;
 
 /// Most shapes of a scene, instances counted.

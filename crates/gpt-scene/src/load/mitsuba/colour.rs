@@ -7,8 +7,8 @@ use super::plugin::{PropertyValue, SpectralCurve, error_at};
 use super::transform::numbers;
 use crate::load::error::SceneError;
 use crate::load::place::Origin;
-use crate::observer::{between, from_xyz, planck};
 pub use crate::observer::{Role, integrate};
+use crate::observer::{between, from_xyz, planck};
 use crate::spectrum::Spectrum;
 
 impl SpectralCurve {

@@ -125,7 +125,8 @@ impl Converter<'_> {
             }
         }
         self.finish_groups()?;
-        self.settle_media()?;
+        let enclosures = std::mem::take(&mut self.media.enclosures);
+        root.possible(enclosures.settle(&mut self.scene))?;
         self.report_clipped()
     }
 

@@ -280,15 +280,7 @@ impl Converter<'_> {
             return Ok(film);
         };
         // They say how the picture is stored.
-        entity.without_effect(&[
-            "filename",
-            "savefp16",
-            "diagonal",
-            "coordinatesystem",
-            "nbuckets",
-            "lambdamin",
-            "lambdamax",
-        ]);
+        entity.without_effect(&["filename", "savefp16", "diagonal", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"]);
         if !["rgb", "gbuffer", "spectral"].contains(&entity.name.as_str()) {
             return Err(entity.error(format!("there is no film `{}`", entity.name)));
         }
@@ -297,7 +289,11 @@ impl Converter<'_> {
         }
         let most = entity.float("maxcomponentvalue")?;
         if most.is_some_and(f64::is_finite) {
-            self.drop(entity.spot_of("maxcomponentvalue"), "Film: `maxcomponentvalue`", "bright samples stay as they are; `clamp` limits them");
+            self.drop(
+                entity.spot_of("maxcomponentvalue"),
+                "Film: `maxcomponentvalue`",
+                "bright samples stay as they are; `clamp` limits them",
+            );
         }
         let size = [entity.integer_or("xresolution", DEFAULT_SIZE[0])?, entity.integer_or("yresolution", DEFAULT_SIZE[1])?];
         let size = size.map(|side| side as f64);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 
-use super::graphics_state::{MaterialName, Maps};
+use super::graphics_state::{Maps, MaterialName};
 use super::infinite::InfiniteLights;
 use super::named_spectra::NamedMetal;
 use super::parameter::Entity;
@@ -45,7 +45,7 @@ pub struct Converter<'a> {
     /// Names of materials as they are without light, openings and media.
     pub materials: HashMap<MaterialName, String>,
     /// Materials that are being made, the outermost first: mixtures name others.
-    pub materials_within: Vec<String>,
+    pub materials_within: Vec<MaterialName>,
     /// Materials that are others with something besides, by what they say.
     pub variants: HashMap<String, String>,
     /// For each material of the description: it, or a part of it, looks up a texture, or has normals that are bent.
@@ -73,6 +73,10 @@ pub struct Converter<'a> {
 pub struct MaterialLooks {
     pub is_textured: bool,
     pub is_bent: bool,
+    /// Light goes straight through.
+    pub is_nothing: bool,
+    /// Light that goes through goes into a body.
+    pub tells_sides: bool,
 }
 
 impl<'a> Converter<'a> {

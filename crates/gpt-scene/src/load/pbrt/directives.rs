@@ -129,7 +129,8 @@ impl<'a> Reader<'a> {
         self.world.materials.push(Rc::new(default_material(&source)));
         self.file(path, source)?;
         if !self.is_world {
-            let error = SceneError::in_file(show(path), "there is no WorldBegin: it is a part of a scene, which another file includes");
+            let error =
+                SceneError::in_file(show(path), "there is no WorldBegin: it is a part of a scene, which another file includes");
             return Err(error.with_help("name the file that has the Camera and WorldBegin"));
         }
         Ok(())
@@ -201,13 +202,16 @@ impl<'a> Reader<'a> {
                 let numbers: [f64; 9] = numbers(lexer, &spot)?;
                 let [eye, target, up] = [0, 3, 6].map(|at| DVec3::from_slice(&numbers[at..at + 3]));
                 let map = look_at(eye, target, up).ok_or_else(|| {
-                    spot.error("what is up lies along the viewing direction, or the target is the eye, so which way is up is not known")
+                    spot.error(
+                        "what is up lies along the viewing direction, or the target is the eye, so which way is up is not known",
+                    )
                 })?;
                 self.concatenate(&spot, Some(map))?;
             }
             "Transform" | "ConcatTransform" => {
                 let map = matrix(&numbers(lexer, &spot)?);
-                let map = map.ok_or_else(|| spot.error("the last row of the matrix is not 0, 0, 0, 1 (numbers are column by column)"))?;
+                let map =
+                    map.ok_or_else(|| spot.error("the last row of the matrix is not 0, 0, 0, 1 (numbers are column by column)"))?;
                 if written == "Transform" {
                     self.state.each_map(|_| DAffine3::IDENTITY);
                 }
@@ -257,7 +261,8 @@ impl<'a> Reader<'a> {
                 let name = quoted(lexer, &spot)?;
                 let space = RgbSpace::named(&name);
                 self.state.space = space.ok_or_else(|| {
-                    spot.error(format!("there is no colour space `{name}`")).with_help(format!("there are {}", RgbSpace::NAMES.join(", ")))
+                    spot.error(format!("there is no colour space `{name}`"))
+                        .with_help(format!("there are {}", RgbSpace::NAMES.join(", ")))
                 })?;
             }
             "Option" => {
@@ -353,7 +358,9 @@ impl<'a> Reader<'a> {
             "MakeNamedMaterial" => {
                 let entity = self.typed(self.entity("MakeNamedMaterial", "material", lexer, spot)?)?;
                 let (name, entity) = entity;
-                insert(&mut self.world.named_materials, "material", name, entity.into(), |entity: &Rc<Entity>| entity.spot.clone())
+                insert(&mut self.world.named_materials, "material", name, entity.into(), |entity: &Rc<Entity>| {
+                    entity.spot.clone()
+                })
             }
             "MakeNamedMedium" => {
                 let around = self.state.around("medium");
@@ -401,7 +408,11 @@ impl<'a> Reader<'a> {
     fn concatenate(&mut self, spot: &Spot, map: Option<DAffine3>) -> Result<(), SceneError> {
         let Some(map) = map else { return Ok(()) };
         self.state.each_map(|before| before * map);
-        if self.state.maps.iter().all(DAffine3::is_finite) { Ok(()) } else { Err(spot.error("the transform leaves the range of numbers")) }
+        if self.state.maps.iter().all(DAffine3::is_finite) {
+            Ok(())
+        } else {
+            Err(spot.error("the transform leaves the range of numbers"))
+        }
     }
 
     fn open(&mut self, block: Block) -> Result<(), SceneError> {
@@ -446,7 +457,9 @@ impl<'a> Reader<'a> {
 
     /// A directive whose text is a name, and whose type is a parameter.
     fn typed(&self, entity: Entity) -> Result<(String, Entity), SceneError> {
-        let kind = entity.text("type")?.ok_or_else(|| entity.error(format!("{} needs the parameter \"string type\"", entity.title())))?;
+        let kind = entity
+            .text("type")?
+            .ok_or_else(|| entity.error(format!("{} needs the parameter \"string type\"", entity.title())))?;
         let kind = kind.to_owned();
         let name = entity.name.clone();
         Ok((name, entity.of_type(kind)))
@@ -500,8 +513,14 @@ impl<'a> Reader<'a> {
         let what = format!("Option `{name}`");
         match plain.as_str() {
             // They say how it is rendered, and not what.
-            "seed" | "rendercoordsys" | "wavefront" | "pixelstats" | "msereferenceimage" | "msereferenceout"
-            | "disablewavelengthjitter" | "disabletexturefiltering" => {}
+            "seed"
+            | "rendercoordsys"
+            | "wavefront"
+            | "pixelstats"
+            | "msereferenceimage"
+            | "msereferenceout"
+            | "disablewavelengthjitter"
+            | "disabletexturefiltering" => {}
             _ => self.report.drop(what, spot.to_string(), "it has no effect"),
         }
     }

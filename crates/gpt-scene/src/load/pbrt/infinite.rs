@@ -188,7 +188,8 @@ mod tests {
 
     fn image(side: u32, radiance: impl Fn(DVec3) -> Spectrum) -> ImageData {
         let at = |place: u32| (f64::from(place) + 0.5) / f64::from(side);
-        let texels = (0..side * side).map(|index| radiance(direction_at([at(index % side), at(index / side)])).to_f32()).collect();
+        let texels =
+            (0..side * side).map(|index| radiance(direction_at([at(index % side), at(index / side)])).to_f32()).collect();
         ImageData { width: side, height: side, texels: Texels::Float(texels), has_alpha: false }
     }
 

@@ -90,7 +90,11 @@ impl Converter<'_> {
             let image = self.picture_named(entity, "filename", &written)?;
             let texels = image.texels.colors().map(|texel| Spectrum::from_f32(texel.to_array()).mean());
             mean = texels.sum::<f64>() / image.texels.len().max(1) as f64;
-            self.approximate(&entity.spot, "LightSource `goniometric`", "it is as bright into all directions, by the mean of its picture");
+            self.approximate(
+                &entity.spot,
+                "LightSource `goniometric`",
+                "it is as bright into all directions, by the mean of its picture",
+            );
         }
         match power_of(entity)? {
             Some(power) => intensity *= power / (2.0 * TAU),
@@ -103,7 +107,9 @@ impl Converter<'_> {
         let (from, to) = (entity.point_or("from", DVec3::ZERO)?, entity.point_or("to", DVec3::Z)?);
         let (angle, delta) = (entity.float_or("coneangle", 30.0)?, entity.float_or("conedeltaangle", 5.0)?);
         if !(angle > 0.0 && angle <= 90.0) {
-            return Err(entity.spot_of("coneangle").error(format!("`coneangle` is above 0 and at most 90 degrees here, and not {angle}")));
+            return Err(entity
+                .spot_of("coneangle")
+                .error(format!("`coneangle` is above 0 and at most 90 degrees here, and not {angle}")));
         }
         let falloff = angle - delta;
         if !(0.0..=angle).contains(&falloff) {

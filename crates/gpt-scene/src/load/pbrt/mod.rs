@@ -20,9 +20,9 @@ mod named_spectra;
 mod parameter;
 mod shape;
 mod spectrum;
-mod text;
 #[cfg(test)]
 mod tests;
+mod text;
 mod texture;
 mod texture_entry;
 mod world;

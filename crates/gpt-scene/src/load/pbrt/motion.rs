@@ -33,7 +33,8 @@ impl Converter<'_> {
             return Ok(None);
         };
         let factors = DVec3::new(stretch.x_axis.x, stretch.y_axis.y, stretch.z_axis.z);
-        let beside = (stretch - DMat3::from_diagonal(factors)).to_cols_array().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let beside =
+            (stretch - DMat3::from_diagonal(factors)).to_cols_array().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         if beside > SLIGHT {
             let instead = "it is stretched along the world's axes";
             self.approximate(spot, "motion that stretches along other axes than the world's", instead);

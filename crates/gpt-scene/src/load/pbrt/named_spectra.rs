@@ -100,7 +100,9 @@ mod tests {
     /// The indices of Schott's data sheets at the wavelength of the line d.
     #[test]
     fn glasses_bend_light_as_schott_says() {
-        for (name, expected) in [("glass-BK7", 1.5168), ("glass-BAF10", 1.670_03), ("glass-F11", 1.784_72), ("glass-LASF9", 1.850_25)] {
+        for (name, expected) in
+            [("glass-BK7", 1.5168), ("glass-BAF10", 1.670_03), ("glass-F11", 1.784_72), ("glass-LASF9", 1.850_25)]
+        {
             let found = index(glass(name).expect("it is known"), 587.56);
             assert!((found - expected).abs() < 1e-5, "{name}: {found}");
         }

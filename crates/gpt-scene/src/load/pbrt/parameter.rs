@@ -335,7 +335,9 @@ mod tests {
 
     #[test]
     fn values_stand_alone_or_in_brackets() {
-        let shape = entity("\"float radius\" 2 \"bool a\" true \"bool b\" [ \"false\" ] \"string  file\" [\"x y\"] \"point P\" [1 2 3]").unwrap();
+        let shape =
+            entity("\"float radius\" 2 \"bool a\" true \"bool b\" [ \"false\" ] \"string  file\" [\"x y\"] \"point P\" [1 2 3]")
+                .unwrap();
         assert_eq!((shape.float("radius").unwrap(), shape.flag_or("a", false).unwrap()), (Some(2.0), true));
         assert_eq!((shape.flag_or("b", true).unwrap(), shape.text("file").unwrap()), (false, Some("x y")));
         assert_eq!(shape.point_or("P", DVec3::ZERO).unwrap(), DVec3::new(1.0, 2.0, 3.0));

@@ -103,7 +103,9 @@ impl Converter<'_> {
 pub fn samples(parameter: &Parameter, numbers: &[f64]) -> Result<Samples, SceneError> {
     let Parameter { name, spot, .. } = parameter;
     if numbers.is_empty() || !numbers.len().is_multiple_of(2) {
-        return Err(spot.error(format!("the spectrum `{name}` is pairs of a wavelength and a value, and has {} numbers", numbers.len())));
+        return Err(
+            spot.error(format!("the spectrum `{name}` is pairs of a wavelength and a value, and has {} numbers", numbers.len()))
+        );
     }
     let pairs: Samples = numbers.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
     if pairs.windows(2).any(|pair| pair[0].0 >= pair[1].0) {
@@ -134,7 +136,9 @@ fn black_body(parameter: &Parameter, kind: SpectrumKind) -> Result<Spectrum, Sce
         return Err(parameter.spot.error("a blackbody has one number, its temperature in kelvin"));
     }
     if !(kelvin > 0.0 && kelvin <= 1e6) {
-        return Err(parameter.spot.error(format!("a blackbody has a temperature above 0, at most 1000000 kelvin, and not {kelvin}")));
+        return Err(parameter
+            .spot
+            .error(format!("a blackbody has a temperature above 0, at most 1000000 kelvin, and not {kelvin}")));
     }
     // Its largest value is 1 there; Wien's law says where.
     let most = planck(2_897_772.1 / kelvin, kelvin);

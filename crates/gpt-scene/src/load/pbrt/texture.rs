@@ -171,7 +171,9 @@ impl Converter<'_> {
     ) -> Result<NodeKind, SceneError> {
         let entity = &placed.entity;
         if depth > DEEPEST {
-            return Err(spot.error(format!("textures lie more than {DEEPEST} deep within each other, or a texture within itself")));
+            return Err(
+                spot.error(format!("textures lie more than {DEEPEST} deep within each other, or a texture within itself"))
+            );
         }
         let mut part = |name: &str, default: f64| -> Result<Rc<TextureNode>, SceneError> {
             let written = match kind {
@@ -211,7 +213,8 @@ impl Converter<'_> {
             }
             "bilerp" => {
                 let mut corners = [Spectrum::BLACK; 4];
-                for (corner, (name, default)) in corners.iter_mut().zip([("v00", 0.0), ("v01", 1.0), ("v10", 0.0), ("v11", 1.0)]) {
+                for (corner, (name, default)) in corners.iter_mut().zip([("v00", 0.0), ("v01", 1.0), ("v10", 0.0), ("v11", 1.0)])
+                {
                     let value = part(name, default)?.as_constant();
                     *corner = value.ok_or_else(|| entity.spot_of(name).error("the corners of bilerp are no textures"))?;
                 }
@@ -250,7 +253,9 @@ impl Converter<'_> {
                 self.approximate(entity.spot_of("mapping"), format!("mapping `{mapping}` of a texture"), instead);
                 Ok(Placement::IDENTITY)
             }
-            other => Err(entity.spot_of("mapping").error(format!("a mapping is uv, spherical, cylindrical or planar, and not `{other}`"))),
+            other => Err(entity
+                .spot_of("mapping")
+                .error(format!("a mapping is uv, spherical, cylindrical or planar, and not `{other}`"))),
         }
     }
 

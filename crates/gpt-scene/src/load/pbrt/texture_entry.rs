@@ -10,9 +10,7 @@ use super::texture::{ImageLeaf, MOST_PARTS, NodeKind, Placement, TextureNode};
 use crate::load::error::{SceneError, show};
 use crate::load::file::colour::Rgb;
 use crate::load::file::reference::{FileOr, TextureName};
-use crate::load::file::syntax::{
-    CheckerEntry, ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry,
-};
+use crate::load::file::syntax::{CheckerEntry, ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::Exactly;
 use crate::load::file::writer::picture;
 use crate::load::image_file::{EmbeddedFile, Pictures};
@@ -151,13 +149,15 @@ impl Converter<'_> {
 
     /// A picture as it is, or a picture of what is made of its texels.
     fn image(&mut self, leaf: &ImageLeaf, used: Use, name: &str, spot: &Spot) -> Result<Input, SceneError> {
-        let is_float = leaf.path.extension().is_some_and(|ending| ["exr", "hdr", "pfm"].iter().any(|e| ending.eq_ignore_ascii_case(e)));
+        let is_float =
+            leaf.path.extension().is_some_and(|ending| ["exr", "hdr", "pfm"].iter().any(|e| ending.eq_ignore_ascii_case(e)));
         let is_scaled = leaf.scale < 0.0 || used != Use::Colours && leaf.scale > 1.0;
         // Only what depends on the texels has them looked at.
         let is_looked_at = is_scaled || leaf.inverts || used.is_number() || used == Use::Albedo && is_float;
         let picture = if is_looked_at { self.read(leaf) } else { None };
         let made = picture.filter(|image| {
-            let is_beyond = || used == Use::Albedo && image.texels.colors().any(|texel| f64::from(texel.max_element()) * leaf.scale > 1.0);
+            let is_beyond =
+                || used == Use::Albedo && image.texels.colors().any(|texel| f64::from(texel.max_element()) * leaf.scale > 1.0);
             let is_grey = || image.texels.colors().all(|colour| colour.x == colour.y && colour.y == colour.z);
             let is_plain = |used: Use| used == Use::Share && is_grey() && !has_alpha(image);
             leaf.inverts || is_scaled || is_beyond() || used.is_number() && !is_plain(used)
@@ -168,7 +168,8 @@ impl Converter<'_> {
                 let of_alpha = used.is_number() && has_alpha(&image);
                 let texel = |index: usize| used.of(value_of(leaf, &image, index, used.is_number(), of_alpha));
                 let texels = (0..image.texels.len()).map(|index| texel(index).to_f32()).collect();
-                let made = ImageData { width: image.width, height: image.height, texels: Texels::Float(texels), has_alpha: false };
+                let made =
+                    ImageData { width: image.width, height: image.height, texels: Texels::Float(texels), has_alpha: false };
                 let space = (used == Use::Heights).then_some(ColorSpaceEntry::Linear);
                 (self.embedded(&stem_of(&leaf.path), &made), space, 1.0)
             }
@@ -216,13 +217,7 @@ impl Converter<'_> {
     }
 
     /// Reads the pictures within a texture, in the order in which they are looked up, and finds how many texels they ask for.
-    fn load_pictures(
-        &self,
-        node: &TextureNode,
-        is_number: bool,
-        loaded: &mut Vec<Loaded>,
-        side: &mut [f64; 2],
-    ) {
+    fn load_pictures(&self, node: &TextureNode, is_number: bool, loaded: &mut Vec<Loaded>, side: &mut [f64; 2]) {
         match &node.kind {
             NodeKind::Constant(_) | NodeKind::Bilinear(..) => {}
             NodeKind::Image(leaf) => {
@@ -295,7 +290,8 @@ impl Converter<'_> {
     pub fn embedded(&self, name: &str, image: &ImageData) -> FileOr<EmbeddedFile> {
         let name = if name.is_empty() { "picture" } else { name };
         // A name may hold what no file's name can.
-        let plain: String = name.chars().map(|one| if one.is_alphanumeric() || "-_. ".contains(one) { one } else { '-' }).collect();
+        let plain: String =
+            name.chars().map(|one| if one.is_alphanumeric() || "-_. ".contains(one) { one } else { '-' }).collect();
         FileOr::InMemory(Arc::new(EmbeddedFile { name: format!("{plain}.exr"), bytes: picture(image).into() }))
     }
 
@@ -374,7 +370,8 @@ fn value_at<'l>(node: &TextureNode, at: [f64; 2], loaded: &mut impl Iterator<Ite
 /// A picture between its texels; v runs upward over it.
 fn looked_up(leaf: &ImageLeaf, image: &ImageData, (is_number, of_alpha): (bool, bool), [u, v]: [f64; 2]) -> Spectrum {
     let (width, height) = (i64::from(image.width), i64::from(image.height));
-    let wrapped = |place: i64, side: i64| if leaf.wrap == WrapEntry::Repeat { place.rem_euclid(side) } else { place.clamp(0, side - 1) };
+    let wrapped =
+        |place: i64, side: i64| if leaf.wrap == WrapEntry::Repeat { place.rem_euclid(side) } else { place.clamp(0, side - 1) };
     let texel = |x: i64, y: i64| {
         let index = wrapped(y, height) * width + wrapped(x, width);
         value_of(leaf, image, index as usize, is_number, of_alpha)

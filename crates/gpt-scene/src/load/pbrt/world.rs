@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use super::color_space::RgbSpace;
-use super::graphics_state::{MaterialName, Maps};
+use super::graphics_state::{Maps, MaterialName};
 use super::parameter::Entity;
 use super::text::Spot;
 

@@ -162,7 +162,6 @@ impl MetalEntry {
 pub fn metal_symbol(eta: Spectrum, k: Spectrum) -> Option<&'static str> {
     let presets =
         [(MetalEntry::Gold, "Au"), (MetalEntry::Copper, "Cu"), (MetalEntry::Silver, "Ag"), (MetalEntry::Aluminium, "Al")];
-    let is_it =
-        |metal: MetalEntry| matches!(metal.fresnel(), ConductorFresnel::Complex { eta: e, k: i } if (e, i) == (eta, k));
+    let is_it = |metal: MetalEntry| matches!(metal.fresnel(), ConductorFresnel::Complex { eta: e, k: i } if (e, i) == (eta, k));
     presets.into_iter().find(|(metal, _)| is_it(*metal)).map(|(_, symbol)| symbol)
 }

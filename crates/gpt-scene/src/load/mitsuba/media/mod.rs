@@ -2,7 +2,7 @@
 //!
 //! - here: how dense a medium is, `homogeneous` and `heterogeneous`.
 //! - `phase`: its phase function.
-//! - `boundary`: where it is, `interior` and `exterior` of shapes.
+//! - `boundary`: which of them a shape names as `interior` and `exterior`; `import::Enclosures` says what follows.
 //! - `volume`: values in space, `constvolume` and `gridvolume`.
 
 mod boundary;
@@ -46,7 +46,7 @@ impl Converter<'_> {
         }
         let name = self.medium(&medium)?;
         let place = medium.at();
-        self.media.around_sensor = Some(medium);
+        self.media.enclosures.around_camera = Some(name.clone());
         Ok(Some(place.at(name)))
     }
 
@@ -75,17 +75,6 @@ impl Converter<'_> {
         self.scene.file.medium.push(entry);
         self.media.names.insert(Rc::as_ptr(plugin), name.clone());
         Ok(name)
-    }
-
-    /// The name of a medium that neither takes nor gives.
-    fn clear_medium(&mut self, plugin: &Plugin) -> String {
-        if let Some(known) = &self.media.clear {
-            return known.clone();
-        }
-        let name = self.scene.free_medium_name("(empty)");
-        self.scene.file.medium.push(MediumEntry { name: plugin.at().at(name.clone()), ..MediumEntry::default() });
-        self.media.clear = Some(name.clone());
-        name
     }
 
     /// A medium that is the same everywhere: by what is scattered and absorbed, or by what is lost and the share of it that is scattered. That share

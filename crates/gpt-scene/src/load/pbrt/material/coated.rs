@@ -87,7 +87,8 @@ impl Converter<'_> {
             return Ok(known.clone());
         }
         let place = entity.spot.place();
-        let value = |value: Spectrum| -> Result<Option<Located<_>>, SceneError> { Ok(Some(place.at(entity.possible(Rgb::of(value))?))) };
+        let value =
+            |value: Spectrum| -> Result<Option<Located<_>>, SceneError> { Ok(Some(place.at(entity.possible(Rgb::of(value))?))) };
         let name = self.scene.free_medium_name(&format!("{wanted}: below the coat"));
         let cosine = Checked::of(g.clamp(MeanCosine::MINIMUM, MeanCosine::MAXIMUM));
         let phase = if g == 0.0 {

@@ -138,7 +138,8 @@ mod tests {
     #[test]
     fn spectra_of_indices_have_their_abbe_numbers() {
         let glass = named_spectra::glass("glass-BK7").expect("it is known");
-        let samples = (0..48).map(|step| 360.0 + 10.0 * f64::from(step)).map(|at| (at, named_spectra::index(glass, at))).collect();
+        let samples =
+            (0..48).map(|step| 360.0 + 10.0 * f64::from(step)).map(|at| (at, named_spectra::index(glass, at))).collect();
         let Index::Abbe(index, number) = of_samples(&samples) else { panic!("it disperses") };
         assert!((index - 1.5168).abs() < 1e-4 && (number - 64.17).abs() < 0.3, "{index} {number}");
         assert_eq!(of_samples(&vec![(400.0, 1.4), (700.0, 1.4)]), Index::Number(1.4), "the control");

@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 
-use super::DEEPEST;
 use crate::load::error::SceneError;
 use crate::load::file::material::{MaterialEntry, blend};
 use crate::load::import::Relief;
@@ -20,16 +19,10 @@ impl Converter<'_> {
         let [first, second] = &names[..] else {
             return Err(entity.error("a mix needs \"string materials\" with the names of two materials"));
         };
-        if self.materials_within.len() >= DEEPEST {
-            let message = format!("mixtures lie more than {DEEPEST} deep within each other, or one within itself");
-            return Err(entity.error(message));
-        }
         let spot = entity.spot_of("materials").clone();
-        self.materials_within.push(entity.name.clone());
-        let parts = [first, second].map(|name| self.material(&MaterialName::Named(name.clone()), &spot));
-        self.materials_within.pop();
-        let [first, second] = parts;
-        let (parts, relief) = self.parts([first?, second?], entity)?;
+        let first = self.material(&MaterialName::Named(first.clone()), &spot)?;
+        let second = self.material(&MaterialName::Named(second.clone()), &spot)?;
+        let (parts, relief) = self.parts([first, second], entity)?;
         let amount = self.float_node(entity, "amount")?.unwrap_or_else(|| TextureNode::constant(Spectrum::grey(0.5)));
         let share = self.input(&amount, Use::Share, entity.spot_of("amount"))?;
         let place = entity.spot.place();

@@ -62,7 +62,15 @@ impl Converter<'_> {
                 (known.ok_or_else(|| unknown("material", name, spot, world.named_materials.keys()))?, name.clone())
             }
         };
+        if self.materials_within.contains(name) {
+            return Err(entity.error(format!("the material `{wanted}` lies within itself")));
+        }
+        if self.materials_within.len() >= DEEPEST {
+            return Err(entity.error(format!("materials lie more than {DEEPEST} deep within each other")));
+        }
+        self.materials_within.push(name.clone());
         let made = self.material_entry(entity, &wanted)?;
+        self.materials_within.pop();
         let made = self.add_material(&entity.spot, &wanted, made);
         self.report_unused(entity);
         self.materials.insert(name.clone(), made.clone());
@@ -176,12 +184,7 @@ impl Converter<'_> {
     }
 
     /// A colour for which there can be no texture here.
-    fn plain_colour(
-        &mut self,
-        entity: &Entity,
-        name: &str,
-        kind: SpectrumKind,
-    ) -> Result<Option<Spectrum>, SceneError> {
+    fn plain_colour(&mut self, entity: &Entity, name: &str, kind: SpectrumKind) -> Result<Option<Spectrum>, SceneError> {
         let Some(node) = self.spectrum_node(entity, name, kind)? else { return Ok(None) };
         if node.as_constant().is_none() {
             let what = format!("texture of `{name}` of {}", entity.title());
@@ -235,11 +238,24 @@ impl Converter<'_> {
         };
         entry.clone().each_texture(&mut |_| is_textured = true);
         let common = entry.common();
-        let own = MaterialLooks { is_textured, is_bent: common.normal_map.is_some() || common.bump_map.is_some() };
+        let own = MaterialLooks {
+            is_textured,
+            is_bent: common.normal_map.is_some() || common.bump_map.is_some(),
+            is_nothing: matches!(entry, MaterialEntry::Pass(_)),
+            tells_sides: match entry {
+                MaterialEntry::Glass(keys) => !keys.thin,
+                MaterialEntry::RoughGlass(_) => true,
+                _ => false,
+            },
+        };
+        // A stack looks alike from both sides.
+        let is_blend = matches!(entry, MaterialEntry::Blend(_));
         let parts = entry.parts().iter().filter_map(|part| self.looks.get(&part.value));
         parts.fold(own, |all, part| MaterialLooks {
             is_textured: all.is_textured || part.is_textured,
             is_bent: all.is_bent || part.is_bent,
+            tells_sides: all.tells_sides || is_blend && part.tells_sides,
+            ..all
         })
     }
 

@@ -14,11 +14,17 @@ impl Converter<'_> {
     pub fn giving_light(&mut self, spot: &Spot, material: &str, light: &Input, both_sides: bool) -> Result<String, SceneError> {
         let place = spot.place();
         let radiance: Colour<NonNegative> = spot.possible(light.colour(&place))?;
-        self.variant(spot, &format!("{material}, giving light"), &format!("{material} + {radiance:?} {both_sides}"), |entry| {
-            let common = entry.common_mut();
-            *common.emission = Some(place.at(radiance));
-            *common.emission_two_sided = both_sides.then(|| place.at(true));
-        }, material)
+        self.variant(
+            spot,
+            &format!("{material}, giving light"),
+            &format!("{material} + {radiance:?} {both_sides}"),
+            |entry| {
+                let common = entry.common_mut();
+                *common.emission = Some(place.at(radiance));
+                *common.emission_two_sided = both_sides.then(|| place.at(true));
+            },
+            material,
+        )
     }
 
     /// A material like another one but for a change, made once.

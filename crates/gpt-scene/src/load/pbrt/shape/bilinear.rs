@@ -19,7 +19,11 @@ impl Converter<'_> {
         let entity = &record.entity;
         entity.without_effect(&["faceIndices"]);
         if entity.has("emissionfilename") {
-            self.drop(entity.spot_of("emissionfilename"), "Shape `bilinearmesh`: `emissionfilename`", "it says how light is sampled");
+            self.drop(
+                entity.spot_of("emissionfilename"),
+                "Shape `bilinearmesh`: `emissionfilename`",
+                "it says how light is sampled",
+            );
             entity.without_effect(&["emissionfilename"]);
         }
         let corners = self.vertices(entity)?;

@@ -181,7 +181,8 @@ impl Surface {
             (*last - *first, across)
         } else {
             let turn = |step: usize| TAU * step as f64 / valence as f64;
-            let sum = |part: fn(f64) -> f64| around.iter().enumerate().map(|(step, place)| part(turn(step)) * *place).sum::<DVec3>();
+            let sum =
+                |part: fn(f64) -> f64| around.iter().enumerate().map(|(step, place)| part(turn(step)) * *place).sum::<DVec3>();
             (sum(f64::cos), sum(f64::sin))
         };
         let normal = along.cross(across);

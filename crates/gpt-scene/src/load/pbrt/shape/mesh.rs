@@ -70,7 +70,12 @@ impl Converter<'_> {
     }
 
     /// A mesh whose fronts are turned where that is said, with texture coordinates where they are looked up.
-    pub(super) fn finish_mesh(&mut self, record: &ShapeRecord, needs: Needs, mut mesh: Mesh) -> Result<Option<Geometry>, SceneError> {
+    pub(super) fn finish_mesh(
+        &mut self,
+        record: &ShapeRecord,
+        needs: Needs,
+        mut mesh: Mesh,
+    ) -> Result<Option<Geometry>, SceneError> {
         if record.reverses {
             turn_inside_out(&mut mesh);
         }

@@ -16,7 +16,6 @@ use super::parameter::Entity;
 use super::texture_entry::Use;
 use super::world::ShapeRecord;
 use crate::load::error::SceneError;
-use crate::load::file::material::MaterialEntry;
 use crate::load::file::shape::{ShapeEntry, mesh as mesh_shape};
 use crate::load::file::value::Located;
 use crate::load::import::{Input, MOST_SHAPES, Sides};
@@ -85,7 +84,7 @@ impl Converter<'_> {
         }
         let mut material = self.material(&record.material, spot)?;
         let looks = self.looks.get(&material).copied().unwrap_or_default();
-        let light = self.light_of(record, &material, is_of_group)?;
+        let light = self.light_of(record, looks, is_of_group)?;
         let alpha = match self.float_node(entity, "alpha")? {
             Some(node) => self.input(&node, Use::Share, entity.spot_of("alpha"))?,
             None => Input::grey(1.0),
@@ -94,7 +93,7 @@ impl Converter<'_> {
         let is_textured = looks.is_textured || alpha.constant().is_none();
         let is_textured = is_textured || light.as_ref().is_some_and(|light| light.radiance.constant().is_none());
         // A front that no one tells from the back need not be turned.
-        let has_front = light.as_ref().is_some_and(|light| !light.both_sides) || sides.is_boundary || self.tells_sides(&material);
+        let has_front = light.as_ref().is_some_and(|light| !light.both_sides) || sides.is_boundary || looks.tells_sides;
         let needs = Needs { looks: MaterialLooks { is_textured, ..looks }, flips: has_front, as_mesh };
         let geometry = self.geometry(record, needs)?;
         self.report_unused(entity);
@@ -125,15 +124,19 @@ impl Converter<'_> {
     }
 
     /// The light that a shape gives.
-    fn light_of(&mut self, record: &ShapeRecord, material: &str, is_of_group: bool) -> Result<Option<AreaLight>, SceneError> {
+    fn light_of(
+        &mut self,
+        record: &ShapeRecord,
+        looks: MaterialLooks,
+        is_of_group: bool,
+    ) -> Result<Option<AreaLight>, SceneError> {
         let Some(light) = &record.light else { return Ok(None) };
         let spot = &record.entity.spot;
         if is_of_group {
             self.drop(spot, "AreaLightSource of a shape within an object", "it gives no light, as there");
             return Ok(None);
         }
-        let is_nothing = |entry: &MaterialEntry| matches!(entry, MaterialEntry::Pass(_));
-        if self.scene.file.material.iter().rev().find(|entry| entry.name() == material).is_some_and(is_nothing) {
+        if looks.is_nothing {
             self.drop(spot, "AreaLightSource of a shape of the material `interface`", "it gives no light, as there");
             return Ok(None);
         }
@@ -162,17 +165,6 @@ impl Converter<'_> {
         let (inside, outside) = (self.medium(&record.inside, spot)?, self.medium(&record.outside, spot)?);
         let is_boundary = inside != outside;
         Ok(Sides { inside, outside, is_boundary })
-    }
-
-    /// Light that goes through a surface of this material goes into a body.
-    fn tells_sides(&self, material: &str) -> bool {
-        let entry = self.scene.file.material.iter().rev().find(|entry| entry.name() == material);
-        entry.is_some_and(|entry| match entry {
-            MaterialEntry::Glass(keys) => !keys.thin,
-            MaterialEntry::RoughGlass(_) => true,
-            MaterialEntry::Blend(keys) => keys.materials.0.iter().any(|part| self.tells_sides(&part.value)),
-            _ => false,
-        })
     }
 
     fn geometry(&mut self, record: &ShapeRecord, needs: Needs) -> Result<Option<Geometry>, SceneError> {
