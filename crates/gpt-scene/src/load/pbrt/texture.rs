@@ -248,7 +248,7 @@ impl Converter<'_> {
         match mapping.as_str() {
             "uv" => Ok(Placement { scale: [number("uscale", 1.0)?, number("vscale", 1.0)?], offset }),
             "spherical" | "cylindrical" | "planar" => {
-                entity.without_effect(&["v1", "v2", "uscale", "vscale"]);
+                entity.without_effect(&["v1", "v2", "uscale", "vscale", "udelta", "vdelta"]);
                 let instead = "the shape's texture coordinates are taken";
                 self.approximate(entity.spot_of("mapping"), format!("mapping `{mapping}` of a texture"), instead);
                 Ok(Placement::IDENTITY)

@@ -18,7 +18,7 @@ use super::world::ShapeRecord;
 use crate::load::error::SceneError;
 use crate::load::file::shape::{ShapeEntry, mesh as mesh_shape};
 use crate::load::file::value::Located;
-use crate::load::import::{Input, MOST_SHAPES, Sides};
+use crate::load::import::{Input, MOST_SHAPES, Sides, mesh_of, turn_inside_out};
 use crate::scene::Mesh;
 
 /// The use of a shape's geometry.
@@ -89,15 +89,20 @@ impl Converter<'_> {
             Some(node) => self.input(&node, Use::Share, entity.spot_of("alpha"))?,
             None => Input::grey(1.0),
         };
-        let sides = self.sides_of(record)?;
+        let mut sides = self.sides_of(record)?;
         let is_textured = looks.is_textured || alpha.constant().is_none();
         let is_textured = is_textured || light.as_ref().is_some_and(|light| light.radiance.constant().is_none());
         // A front that no one tells from the back need not be turned.
-        let has_front = light.as_ref().is_some_and(|light| !light.both_sides) || sides.is_boundary || looks.tells_sides;
+        let has_front = light.as_ref().is_some_and(|light| !light.both_sides)
+            || (sides.is_boundary && !looks.is_nothing)
+            || looks.tells_sides;
         let needs = Needs { looks: MaterialLooks { is_textured, ..looks }, flips: has_front, as_mesh };
         let geometry = self.geometry(record, needs)?;
         self.report_unused(entity);
         let Some(Geometry { mut entry, map, areas }) = geometry else { return Ok(None) };
+        if looks.is_nothing && sides.is_boundary && turn_outwards(record, &mut entry) {
+            std::mem::swap(&mut sides.inside, &mut sides.outside);
+        }
         let is_unseen = alpha.constant().is_some_and(|share| share.r() <= 0.0);
         if let Some(light) = &light {
             let radiance = self.radiance(light, &areas, entity);
@@ -206,6 +211,24 @@ impl Converter<'_> {
         let entry = ShapeEntry::Mesh(mesh_shape::Keys::of(mesh, &spot.place()));
         Ok(Geometry { entry, map: DAffine3::IDENTITY, areas })
     }
+}
+
+/// Turns the front of a shape, of which no more than its two sides is seen, away from what it encloses. True where it was turned.
+fn turn_outwards(record: &ShapeRecord, entry: &mut ShapeEntry) -> bool {
+    let Some(mesh) = mesh_of(entry) else { return !matches!(entry, ShapeEntry::Disk(_)) && quadric::is_flipped(record) };
+    let corner = |index: u32| mesh.positions[index as usize].as_dvec3();
+    let volume = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(corner);
+        a.dot(b.cross(c))
+    };
+    let is_inward = mesh.faces.iter().map(volume).sum::<f64>() < 0.0;
+    if !is_inward || record.maps[0].matrix3.determinant() < 0.0 {
+        return false;
+    }
+    let mut turned = Mesh::clone(mesh);
+    turn_inside_out(&mut turned);
+    *entry = ShapeEntry::Mesh(mesh_shape::Keys::of(Arc::new(turned), &record.entity.spot.place()));
+    true
 }
 
 /// The areas of a mesh's triangles where a map puts them.

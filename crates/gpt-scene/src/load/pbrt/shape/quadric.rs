@@ -158,7 +158,7 @@ impl Converter<'_> {
 }
 
 /// The front of a round shape is turned by `ReverseOrientation` there, and by transforms that mirror.
-fn is_flipped(record: &ShapeRecord) -> bool {
+pub(super) fn is_flipped(record: &ShapeRecord) -> bool {
     record.reverses != (record.maps[0].matrix3.determinant() < 0.0)
 }
 

@@ -248,6 +248,28 @@ fn media_fill_the_bodies_that_name_them() {
 }
 
 #[test]
+fn a_boundary_whose_front_is_turned_holds_what_is_before_it() {
+    let turned = "Material \"interface\"\nReverseOrientation\n";
+    let ball = valid(&format!("{FOG}MediumInterface \"\" \"fog\"\n{turned}Shape \"sphere\""));
+    assert!(matches!(last(&ball).geometry, Geometry::Sphere(_)));
+    assert_eq!((interior(&ball, last(&ball)).as_deref(), report(&ball).as_str()), (Some("fog"), ""));
+    let wound = |faces: &str, outward: &str| {
+        let corners = "\"point3 P\" [ 0 0 0 1 0 0 0 1 0 0 0 1 ]";
+        let shape = format!("Shape \"trianglemesh\" {corners} \"integer indices\" [ {faces} ]");
+        let scene = valid(&format!("{FOG}MediumInterface {outward}\nMaterial \"interface\"\n{shape}"));
+        assert_eq!((interior(&scene, last(&scene)).as_deref(), report(&scene).as_str()), (Some("fog"), ""));
+        let mesh = mesh(last(&scene));
+        mesh.faces
+            .iter()
+            .map(|face| face.map(|index| mesh.positions[index as usize]))
+            .map(|[a, b, c]| a.dot(b.cross(c)))
+            .sum::<f32>()
+    };
+    assert_eq!(wound("0 2 1 0 1 3 0 3 2 1 2 3", "\"fog\" \"\""), 1.0);
+    assert_eq!(wound("0 1 2 0 3 1 0 2 3 1 3 2", "\"\" \"fog\""), 1.0);
+}
+
+#[test]
 fn media_are_what_they_say() {
     let of = |medium: &str| {
         let scene = valid(&format!(
