@@ -147,6 +147,22 @@ IMITATIONS = {
 }
 
 
+def cameras():
+    """A hall as nine cameras see it."""
+    keys = (
+        "vfov = 70",
+        'projection = "cylindrical"\nazimuth = [-100, 100]',
+        'projection = "equirectangular"\nazimuth = [-135, 135]',
+        'projection = "fisheye"\nfov = 180',
+        'projection = "fisheye"\nfov = 250\nmapping = "stereographic"\nfit = "diagonal"',
+        'projection = "kannala_brandt"\nfocal = [75, 75]\nradial = [-0.02, 0.004, -0.003, 0.0004]',
+        'projection = "brown_conrady"\nfocal = [120, 120]\nradial = [-0.3, 0.11, -0.016]',
+        'projection = "cube_map"\nlayout = "grid"',
+        'projection = "equirectangular"\nstereo = { layout = "top_bottom", eye_distance = 0.3 }',
+    )
+    montage("cameras.jpg", 3, [("hall", Way(key, [], {"vfov     = 70": key}), 256) for key in keys])
+
+
 def layers():
     """Paints of real layers, their imitations by blends, and Weidlich and Wilkie's approximation."""
     rows = []
@@ -302,7 +318,7 @@ FIGURES = {
     figure.__name__: figure
     for figure in (
         *(estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, layers, extensions, integrals, importance, roulette, fog, smoke, samplers),
-        *(heuristics, mixed_glass, aging, strata),
+        *(heuristics, mixed_glass, aging, strata, cameras),
         *(study.choosing, study.weighing, study.phong, study.sequences, study.densities, study.basics, study.dice),
     )
 }

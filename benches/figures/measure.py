@@ -24,8 +24,8 @@ SEEDS = (1, 2, 3, 4)
 SAMPLER = "halton"
 # No seed of a measured picture.
 REFERENCE_SEEDS = (1001, 1002)
-# What a quick run renders instead of sizes and numbers of samples.
-QUICK = ["--device", "cpu", "--size", "16x12", "--spp", 1]
+# What a quick run renders instead of sizes and numbers of samples: two rows of three squares are a cube map.
+QUICK = ["--device", "cpu", "--size", "18x12", "--spp", 1]
 
 scratch = tempfile.TemporaryDirectory(prefix="gpt-figures-")
 FOLDER = Path(scratch.name)

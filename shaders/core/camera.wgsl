@@ -1,4 +1,5 @@
 // Camera rays. src/reference/camera.rs is the same in f64.
+#import core/camera_models.wgsl
 #import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
@@ -63,6 +64,7 @@ struct Pose {
     forward: vec4<f32>,
     lens_u: vec4<f32>,
     lens_v: vec4<f32>,
+    eye: vec4<f32>,
 }
 
 // A word of the pose, `share` of the way through a stretch of the exposure.
@@ -74,27 +76,75 @@ fn exposed(stretch: u32, word: u32, share: f32) -> vec4<f32> {
 // The pose at the time of a path, which is that of its shapes (geometry/motion.wgsl).
 fn pose_of(pixel: u32, sample_in_pass: u32) -> Pose {
     if !HAS_CAMERA_MOTION {
-        return Pose(view.position, view.corner, view.step_x, view.step_y, view.forward, view.lens_u, view.lens_v);
+        return Pose(view.position, view.corner, view.step_x, view.step_y, view.forward, view.lens_u, view.lens_v, view.eye);
     }
     let scaled = uniform_float(random_block(pixel, sample_in_pass, 1u).x) * f32(EXPOSURE_STRETCHES);
     let stretch = min(u32(scaled), EXPOSURE_STRETCHES - 1u);
     let share = scaled - f32(stretch);
     return Pose(
         exposed(stretch, 0u, share), exposed(stretch, 1u, share), exposed(stretch, 2u, share), exposed(stretch, 3u, share),
-        exposed(stretch, 4u, share), exposed(stretch, 5u, share), exposed(stretch, 6u, share)
+        exposed(stretch, 4u, share), exposed(stretch, 5u, share), exposed(stretch, 6u, share), exposed(stretch, 7u, share)
     );
 }
 
-fn camera_ray(pixel: u32, sample_in_pass: u32) -> Ray {
+// The view of the picture that a pixel belongs to.
+struct Tile {
+    number: u32,
+    // Its upper left corner in the picture, in pixels.
+    corner: vec2<f32>,
+}
+
+fn tile_of(pixel: u32) -> Tile {
+    let y = pixel / FILM_WIDTH;
+    let row = y / TILE_HEIGHT;
+    let column = (pixel - y * FILM_WIDTH) / TILE_WIDTH;
+    return Tile(row * TILE_COLUMNS + column, vec2<f32>(f32(column * TILE_WIDTH), f32(row * TILE_HEIGHT)));
+}
+
+// From the camera to the eye of a view, which looks along `seen`, to the right, up and backward.
+fn eye_of(pose: Pose, tile: u32, seen: vec3<f32>) -> vec3<f32> {
+    var eye = pose.eye.xyz;
+#if TURNING_EYES
+    // Along the horizon, at a right angle to the direction.
+    let level = length(seen.xz);
+    eye = select(0.0, pose.eye.w / level, level > 0.0) * (-seen.z * pose.step_x.xyz - seen.x * pose.forward.xyz);
+#endif
+    return select(-eye, eye, tile == 1u);
+}
+
+struct CameraRay {
+    ray: Ray,
+    // False where the place of the picture sees nothing; the ray has no meaning then.
+    sees: bool,
+}
+
+fn camera_ray(pixel: u32, sample_in_pass: u32) -> CameraRay {
     let random = camera_block(pixel, sample_in_pass);
-    let film = sample_position(pixel, random);
+    var film = sample_position(pixel, random);
     let pose = pose_of(pixel, sample_in_pass);
-    let on_film = pose.corner.xyz + film.x * pose.step_x.xyz + film.y * pose.step_y.xyz;
+    var tile: Tile;
+    if HAS_CAMERA_TILES {
+        // Samples of a view's edge reach over into what the view would show there.
+        tile = tile_of(pixel);
+        film -= tile.corner;
+    }
+    var seen = vec4<f32>(0.0, 0.0, -1.0, 1.0);
     var origin = pose.position.xyz;
+#if CAMERA_MODEL
+    seen = camera_model_direction(film, tile.number);
+    var direction = seen.x * pose.step_x.xyz + seen.y * pose.step_y.xyz - seen.z * pose.forward.xyz;
+#else
+    let on_film = pose.corner.xyz + film.x * pose.step_x.xyz + film.y * pose.step_y.xyz;
     var direction = on_film;
     if HAS_ORTHOGRAPHIC {
         origin += on_film;
         direction = pose.forward.xyz;
+    }
+#endif
+    if HAS_STEREO {
+        let eye = eye_of(pose, tile.number, seen.xyz);
+        origin += eye;
+        direction -= view.convergence.x * eye;
     }
     if HAS_LENS {
         // All rays of a film position meet where the one through the middle of the lens crosses the plane in
@@ -104,5 +154,5 @@ fn camera_ray(pixel: u32, sample_in_pass: u32) -> Ray {
         origin += offset;
         direction = pose.lens_u.w * direction - offset;
     }
-    return Ray(origin, normalize(direction));
+    return CameraRay(Ray(origin, normalize(direction)), seen.w > 0.0);
 }

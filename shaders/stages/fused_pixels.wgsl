@@ -1,6 +1,6 @@
 // Which pixels an invocation of a fused kernel has.
-#import core/camera.wgsl
 #import core/parameters.wgsl
+#import shading/path/camera_path.wgsl
 #import shading/path/path.wgsl
 #import geometry/motion.wgsl
 #import stages/statistics.wgsl
@@ -25,6 +25,5 @@ fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
     if HAS_MOTION {
         set_path_time(pixel, sample_in_pass);
     }
-    let ray = camera_ray(pixel, sample_in_pass);
-    return new_path(ray, pixel, sample_in_pass);
+    return camera_path(pixel, sample_in_pass);
 }

@@ -1,8 +1,7 @@
 // Starts the paths of a pass.
 #import core/layout.wgsl
-#import core/camera.wgsl
 #import core/parameters.wgsl
-#import shading/path/path.wgsl
+#import shading/path/camera_path.wgsl
 #import stages/wavefront.wgsl
 #import stages/statistics.wgsl
 
@@ -20,8 +19,7 @@ fn generate(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     let pixel = pass_parameters.first_pixel + slot - sample_in_pass * pass_parameters.pixel_count;
 #endif
-    let ray = camera_ray(pixel, sample_in_pass);
-    store_path(slot, new_path(ray, pixel, sample_in_pass));
+    store_path(slot, camera_path(pixel, sample_in_pass));
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0);
     queues[slot] = slot;
 }

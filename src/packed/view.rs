@@ -1,10 +1,10 @@
 //! The camera and what lies outside the scene, as the device wants them.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3, DVec4};
 
 use super::environment::PackedEnvironment;
 use crate::sampling::filter::{CURVE_PIECES, FilterSampler};
-use crate::scene::{self, Aperture, ApertureShape, Camera, Projection, Scene};
+use crate::scene::{self, Aperture, ApertureShape, Camera, FisheyeMapping, Scene, Window};
 use crate::shader::shared::{shared_constants, shared_struct};
 
 shared_struct! {
@@ -12,7 +12,7 @@ shared_struct! {
 pub struct View {
     pub position: [f32; 4],
     /// A ray through film position (x, y), in pixels, goes along corner + x·step_x + y·step_y; orthographic: it starts there,
-    /// relative to the position.
+    /// relative to the position. Of a camera model, step_x is the direction to the right, and step_y that upward.
     pub corner: [f32; 4],
     pub step_x: [f32; 4],
     pub step_y: [f32; 4],
@@ -22,6 +22,12 @@ pub struct View {
     pub lens_u: [f32; 4],
     /// Likewise upward; rotation of a polygon in turns.
     pub lens_v: [f32; 4],
+    /// From the camera to its right eye; half the distance of its eyes.
+    pub eye: [f32; 4],
+    /// Words that the shader of the camera's model reads.
+    pub model: [[f32; 4]; 4],
+    /// One over the distance at which the eyes converge.
+    pub convergence: [f32; 4],
     /// Words that the shader of the light from outside the scene reads; its radiance where it is constant.
     pub environment: [[f32; 4]; 3],
     /// Inverse cumulative distribution of the filter, piece by piece.
@@ -31,11 +37,14 @@ pub struct View {
 }
 }
 
-/// Words that say where a camera is: from `position` to `lens_v`.
-pub const POSE_WORDS: usize = 7;
+/// Words that say where a camera is: from `position` to `eye`.
+pub const POSE_WORDS: usize = 8;
 
 shared_constants!(constants {
     const EXPOSURE_STRETCHES: u32 = scene::EXPOSURE_STRETCHES as u32;
+    const FISHEYE_EQUIDISTANT: u32 = FisheyeMapping::Equidistant as u32;
+    const FISHEYE_EQUISOLID: u32 = FisheyeMapping::Equisolid as u32;
+    const FISHEYE_STEREOGRAPHIC: u32 = FisheyeMapping::Stereographic as u32;
 });
 
 impl View {
@@ -43,7 +52,10 @@ impl View {
         let pose = |camera: &Camera| pose(camera, scene);
         let at_rest = pose(&scene.camera);
         let exposure = std::array::from_fn(|step| scene.exposure.get(step).map_or(at_rest, pose));
-        let [position, corner, step_x, step_y, forward, lens_u, lens_v] = at_rest;
+        let [position, corner, step_x, step_y, forward, lens_u, lens_v, eye] = at_rest;
+        let size = DVec2::from(scene.camera.view_size(scene.film.size).map(f64::from));
+        let model = scene.camera.projection.model().map_or([DVec4::ZERO; 4], |model| model.words(size));
+        let convergence = scene.camera.stereo.map_or(0.0, |stereo| stereo.inverse_convergence());
         Self {
             position,
             corner,
@@ -52,6 +64,9 @@ impl View {
             forward,
             lens_u,
             lens_v,
+            eye,
+            model: model.map(|word| word.as_vec4().to_array()),
+            convergence: [convergence as f32, 0.0, 0.0, 0.0],
             environment: environment.words.map(|word| word.as_vec4().to_array()),
             filter_curve: *FilterSampler::new(scene.film.filter).curve(),
             exposure,
@@ -62,22 +77,31 @@ impl View {
 /// The words of a pose, for the film of a scene.
 fn pose(camera: &Camera, scene: &Scene) -> [[f32; 4]; POSE_WORDS] {
     let [right, up, backward] = camera.frame();
-    let [width, height] = scene.film.size.map(f64::from);
-    let (half_height, distance) = match camera.projection {
-        Projection::Perspective { vertical_fov_degrees } => ((0.5 * vertical_fov_degrees).to_radians().tan(), 1.0),
-        Projection::Orthographic { height } => (0.5 * height, 0.0),
+    let size = DVec2::from(camera.view_size(scene.film.size).map(f64::from));
+    let [corner, step_x, step_y] = match camera.window(size) {
+        Some(Window { half_extent, shift, is_parallel }) => {
+            let DVec2 { x: half_width, y: half_height } = half_extent;
+            let distance = if is_parallel { 0.0 } else { 1.0 };
+            let shift = right * (2.0 * half_width * shift.x) + up * (2.0 * half_height * shift.y);
+            [
+                up * half_height - right * half_width - backward * distance + shift,
+                right * (2.0 * half_width / size.x),
+                up * (-2.0 * half_height / size.y),
+            ]
+        }
+        None => [DVec3::ZERO, right, up],
     };
-    let half_width = half_height * width / height * camera.stretch;
-    let shift = right * (2.0 * half_width * camera.shift[0]) + up * (2.0 * half_height * camera.shift[1]);
     let radius = camera.aperture.map_or(0.0, |aperture| aperture.radius);
+    let half_distance = camera.stereo.map_or(0.0, |stereo| 0.5 * stereo.eye_distance);
     [
         extend(camera.position, 0.0),
-        extend(up * half_height - right * half_width - backward * distance + shift, 0.0),
-        extend(right * (2.0 * half_width / width), 0.0),
-        extend(up * (-2.0 * half_height / height), 0.0),
+        extend(corner, 0.0),
+        extend(step_x, 0.0),
+        extend(step_y, 0.0),
         extend(-backward, scene.film.filter.radius),
         extend(right * radius, camera.focus_distance),
         extend(up * radius, camera.aperture.map_or(0.0, rotation_turns)),
+        extend(right * half_distance, half_distance),
     ]
 }
 

@@ -5,6 +5,7 @@
 
 pub mod bindings;
 mod build;
+mod camera_models;
 pub mod choices;
 pub mod chunks;
 pub mod counters;

@@ -1,5 +1,7 @@
 //! Which of the [switches](crate::shader::switches) a scene turns on.
 
+use glam::DVec2;
+
 use super::choices::{FilmStorage, MAX_SAMPLES_PER_PASS};
 use super::model::{Plan, SEQUENCE_BLOCKS};
 use crate::packed::hierarchy::Traversal;
@@ -13,7 +15,7 @@ use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
 use crate::sampling::mis::Heuristic;
 use crate::scene::material::{self, ANISOTROPIC, SEPARABLE_MASKING};
-use crate::scene::{ApertureShape, DistanceSampling, Filter, FilterKind, HemisphereSampling, MapRows, Projection};
+use crate::scene::{ApertureShape, Camera, DistanceSampling, Eyes, Filter, FilterKind, HemisphereSampling, MapRows, Projection};
 use crate::scene::{
     BlendMode, Emitters, Estimator, LightSampling, LobeKind, LobeSupport, PhongCosine, PhongHorizon, PhongSampling, PixelSampler,
     RenderSettings, Scene,
@@ -100,6 +102,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
     let albedos = packed.materials.albedos;
     let albedo_word = |place: Option<usize>| tables.first_further + place.unwrap_or(0) as u32;
     let map = packed.environment.map.unwrap_or_default();
+    let [tile_width, tile_height] = scene.camera.view_size(scene.film.size);
     let first_light = |kind: LightKind| packed.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
     switches.constants.extend([
         ("CORRELATED_ALBEDO_WORD", albedo_word(albedos.height_correlated)),
@@ -122,6 +125,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("ENVIRONMENT_ROWS_TO_POLES", u32::from(map.rows == MapRows::ToPoles)),
         ("ENVIRONMENT_WIDTH", map.width),
         ("FILM_WIDTH", scene.film.size[0]),
+        ("FISHEYE_MAPPING", if let Projection::Fisheye(model) = scene.camera.projection { model.mapping.number() } else { 0 }),
         ("FIRST_BLEND_WEIGHT_WORD", tables.first_blend_weight),
         ("FIRST_FURTHER_WORD", tables.first_further),
         ("FIRST_LAYER_WORD", tables.first_layer),
@@ -136,6 +140,9 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
         ("LANES", plan.lanes.unwrap_or(1)),
+        ("TILE_COLUMNS", scene.camera.tiles()[0]),
+        ("TILE_HEIGHT", tile_height),
+        ("TILE_WIDTH", tile_width),
         ("LIGHT_COUNT", packed.lights.len() as u32),
         ("LIGHTS_AT_INFINITY", (packed.lights.len() - packed.local_lights) as u32),
         ("LIGHT_SAMPLES", plan.light_samples),
@@ -271,7 +278,10 @@ fn enable_camera(switches: &mut Switches, scene: &Scene) -> u32 {
     switches.enable("FILTER", filter != Filter::default());
     switches.enable("FILTER_BOX", filter != Filter::default() && filter.kind == FilterKind::Box);
     switches.enable("FILTER_CURVE", matches!(filter.kind, FilterKind::Gaussian | FilterKind::BlackmanHarris));
-    switches.enable("ORTHOGRAPHIC", matches!(scene.camera.projection, Projection::Orthographic { .. }));
+    let (camera, size) = (&scene.camera, DVec2::from(scene.film.size.map(f64::from)));
+    let window = camera.window(size);
+    switches.enable("ORTHOGRAPHIC", window.is_some_and(|window| window.is_parallel));
+    enable_camera_model(switches, camera, window.is_none());
     switches.enable("CAMERA_MOTION", !scene.exposure.is_empty());
     switches.enable("LENS", scene.camera.aperture.is_some());
     let shape = scene.camera.aperture.map(|aperture| aperture.shape);
@@ -283,6 +293,19 @@ fn enable_camera(switches: &mut Switches, scene: &Scene) -> u32 {
         }
         _ => 0,
     }
+}
+
+/// The map from places of the picture to directions, where that is not flat, and the views that the picture consists of.
+fn enable_camera_model(switches: &mut Switches, camera: &Camera, is_bent: bool) {
+    switches.enable("CAMERA_MODEL", is_bent);
+    for &switch in camera.projection.switches() {
+        switches.enable(switch, is_bent);
+    }
+    switches.enable("CAMERA_TILES", camera.tiles() != [1, 1]);
+    switches.enable("STEREO", camera.stereo.is_some());
+    let eyes = camera.projection.model().map(|model| model.eyes());
+    switches.enable("TURNING_EYES", camera.stereo.is_some() && eyes == Some(Eyes::Turning));
+    switches.enable("DEPTH_BY_DISTANCE", !camera.measures_depth_along_axis());
 }
 
 /// Materials, lobe by lobe, and blends of them.

@@ -6,30 +6,29 @@ use super::intersect::Ray;
 use super::warp;
 use crate::sampling::filter::FilterSampler;
 use crate::sampling::{CameraDimension, Dimension, PathSampler};
-use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Projection, Scene};
+use crate::scene::{ApertureShape, Camera, Eyes, FilmSettings, Scene, ViewPlace, Window};
 
-/// A pinhole or thin-lens camera, perspective or orthographic, with its frame worked out.
+/// The rays of a camera, with its frame worked out.
 #[derive(Debug, Clone)]
-pub struct ProjectiveCamera {
+pub struct CameraRays {
     /// Poses of the camera, at even steps of time while the shutter is open; one where it rests.
     poses: Vec<Pose>,
-    orthographic: bool,
-    /// To the right and up, in windows.
-    shift: DVec2,
-    size: DVec2,
+    /// All that is the same while the shutter is open.
+    camera: Camera,
+    /// Columns and rows of views in the picture, and their size in pixels.
+    tiles: [u32; 2],
+    view: [u32; 2],
     filter: FilterSampler,
-    aperture: Option<Aperture>,
 }
 
 /// The part of the camera that differs where it moves.
 #[derive(Debug, Clone)]
 struct Pose {
     position: DVec3,
-    right: DVec3,
-    up: DVec3,
-    backward: DVec3,
-    /// Half the window's width and height, at distance 1 if it is perspective; the width is below 0 where the picture is mirrored.
-    half_extent: DVec2,
+    /// To the right, up and backward.
+    frame: [DVec3; 3],
+    /// None where the picture is not flat.
+    window: Option<Window>,
     /// Distance of the plane in focus along the viewing direction.
     focus_distance: f64,
 }
@@ -45,20 +44,19 @@ struct Unscaled {
 }
 
 impl Pose {
-    fn new(camera: &Camera, size: DVec2) -> Self {
-        let [right, up, backward] = camera.frame();
-        let half_height = match camera.projection {
-            Projection::Perspective { vertical_fov_degrees } => (0.5 * vertical_fov_degrees.to_radians()).tan(),
-            Projection::Orthographic { height } => 0.5 * height,
-        };
+    fn new(camera: &Camera, view: [u32; 2]) -> Self {
         Self {
             position: camera.position,
-            right,
-            up,
-            backward,
-            half_extent: DVec2::new(half_height * size.x / size.y * camera.stretch, half_height),
+            frame: camera.frame(),
+            window: camera.window(DVec2::from(view.map(f64::from))),
             focus_distance: camera.focus_distance,
         }
+    }
+
+    /// A vector of the camera's coordinates in the world.
+    fn to_world(&self, v: DVec3) -> DVec3 {
+        let [right, up, backward] = self.frame;
+        right * v.x + up * v.y + backward * v.z
     }
 }
 
@@ -73,70 +71,99 @@ impl Unscaled {
     }
 }
 
-impl ProjectiveCamera {
+impl CameraRays {
     /// A camera at rest.
     pub fn new(camera: &Camera, film: &FilmSettings) -> Self {
-        let size = DVec2::from(film.size.map(f64::from));
+        let view = camera.view_size(film.size);
         Self {
-            poses: vec![Pose::new(camera, size)],
-            orthographic: matches!(camera.projection, Projection::Orthographic { .. }),
-            shift: DVec2::from(camera.shift),
-            size,
+            poses: vec![Pose::new(camera, view)],
+            camera: camera.clone(),
+            tiles: camera.tiles(),
+            view,
             filter: FilterSampler::new(film.filter),
-            aperture: camera.aperture,
         }
     }
 
     /// The camera of a scene, at rest or not.
     pub fn of(scene: &Scene) -> Self {
-        let mut camera = Self::new(&scene.camera, &scene.film);
+        let mut rays = Self::new(&scene.camera, &scene.film);
         if !scene.exposure.is_empty() {
-            camera.poses = scene.exposure.iter().map(|pose| Pose::new(pose, camera.size)).collect();
+            rays.poses = scene.exposure.iter().map(|pose| Pose::new(pose, rays.view)).collect();
         }
-        camera
+        rays
     }
 
-    /// The camera ray of a sample of pixel (x, y). Its position is drawn from the filter around the pixel's centre, its origin from
-    /// the aperture.
-    pub fn sample(&self, x: u32, y: u32, sampler: &PathSampler) -> Ray {
+    /// The camera ray of a sample of pixel (x, y); None where it sees nothing. Its position is drawn from the filter around the pixel's centre,
+    /// its origin from the aperture.
+    pub fn sample(&self, x: u32, y: u32, sampler: &PathSampler) -> Option<Ray> {
         let bits = |dimension| sampler.bits(Dimension::camera(dimension));
         let offset = |dimension| self.filter.offset(sampler.uniform(Dimension::camera(dimension)));
         let film_x = f64::from(x) + 0.5 + offset(CameraDimension::PixelX);
         let film_y = f64::from(y) + 0.5 + offset(CameraDimension::PixelY);
-        let lens = self.aperture.map_or(DVec2::ZERO, |aperture| {
+        let lens = self.camera.aperture.map_or(DVec2::ZERO, |aperture| {
             aperture.radius * aperture_point(aperture.shape, bits(CameraDimension::LensU), bits(CameraDimension::LensV))
         });
         let time = if self.poses.len() > 1 { sampler.uniform(Dimension::camera(CameraDimension::Time)) } else { 0.0 };
-        self.ray(film_x, film_y, lens, time)
+        self.ray([x, y], DVec2::new(film_x, film_y), lens, time)
     }
 
-    /// The ray through a film position in pixels: x to the right, y down, (0, 0) the picture's upper left corner. `lens` is where it
-    /// starts, to the right and up from the middle of the lens. All rays of a film position meet in the plane in focus. `time` is 0 as the
+    /// The ray of a pixel through the middle of its place and of the lens as the shutter opens; None where it sees nothing.
+    pub fn middle(&self, x: u32, y: u32) -> Option<Ray> {
+        self.ray([x, y], DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5), DVec2::ZERO, 0.0)
+    }
+
+    /// The ray of a pixel through a film position in pixels: x to the right, y down, (0, 0) the picture's upper left corner; None where it sees
+    /// nothing. The pixel says which view of the picture it is, and samples of its edge reach over into what the view would show there. `lens` is
+    /// where it starts, to the right and up from the middle of the lens. All rays of a film position meet in the plane in focus. `time` is 0 as the
     /// shutter opens and 1 as it closes.
-    pub fn ray(&self, film_x: f64, film_y: f64, lens: DVec2, time: f64) -> Ray {
+    pub fn ray(&self, pixel: [u32; 2], film: DVec2, lens: DVec2, time: f64) -> Option<Ray> {
+        let tile: [u32; 2] = std::array::from_fn(|axis| (pixel[axis] / self.view[axis]).min(self.tiles[axis] - 1));
+        let corner: [f64; 2] = std::array::from_fn(|axis| f64::from(tile[axis] * self.view[axis]));
+        let place = ViewPlace {
+            tile: tile[1] * self.tiles[0] + tile[0],
+            at: film - DVec2::from(corner),
+            size: DVec2::from(self.view.map(f64::from)),
+        };
         let stretches = self.poses.len() - 1;
         let ray = if stretches == 0 {
-            self.unscaled(&self.poses[0], film_x, film_y, lens)
+            self.unscaled(&self.poses[0], &place, lens)?
         } else {
             let scaled = time * stretches as f64;
             let first = (scaled as usize).min(stretches - 1);
-            let [a, b] = [first, first + 1].map(|index| self.unscaled(&self.poses[index], film_x, film_y, lens));
+            let (a, b) = (self.unscaled(&self.poses[first], &place, lens)?, self.unscaled(&self.poses[first + 1], &place, lens)?);
             Unscaled::between(&a, &b, scaled - first as f64)
         };
-        if self.aperture.is_none() {
-            return Ray { origin: ray.middle, direction: ray.direction.normalize() };
+        if self.camera.aperture.is_none() {
+            return Some(Ray { origin: ray.middle, direction: ray.direction.normalize() });
         }
-        Ray { origin: ray.middle + ray.offset, direction: (ray.direction * ray.focus_distance - ray.offset).normalize() }
+        Some(Ray { origin: ray.middle + ray.offset, direction: (ray.direction * ray.focus_distance - ray.offset).normalize() })
     }
 
-    fn unscaled(&self, pose: &Pose, film_x: f64, film_y: f64, lens: DVec2) -> Unscaled {
-        let x = (2.0 * (film_x / self.size.x + self.shift.x) - 1.0) * pose.half_extent.x;
-        let y = (1.0 - 2.0 * (film_y / self.size.y - self.shift.y)) * pose.half_extent.y;
-        let window = pose.right * x + pose.up * y;
-        let (middle, direction) =
-            if self.orthographic { (pose.position + window, -pose.backward) } else { (pose.position, window - pose.backward) };
-        let offset = pose.right * lens.x + pose.up * lens.y;
-        Unscaled { middle, direction, offset, focus_distance: pose.focus_distance }
+    fn unscaled(&self, pose: &Pose, place: &ViewPlace, lens: DVec2) -> Option<Unscaled> {
+        let (mut origin, mut direction) = match (pose.window, self.camera.projection.model()) {
+            (Some(window), _) => {
+                let at = DVec2::new(
+                    2.0 * (place.at.x / place.size.x + window.shift.x) - 1.0,
+                    1.0 - 2.0 * (place.at.y / place.size.y - window.shift.y),
+                );
+                let on_window = (at * window.half_extent).extend(0.0);
+                if window.is_parallel { (on_window, DVec3::NEG_Z) } else { (DVec3::ZERO, on_window - DVec3::Z) }
+            }
+            (None, Some(model)) => (DVec3::ZERO, model.direction(place)?),
+            (None, None) => return None,
+        };
+        if let Some(stereo) = self.camera.stereo {
+            let eyes = self.camera.projection.model().map_or(Eyes::Pair, |model| model.eyes());
+            let eye = stereo.eye(eyes, direction, place.tile);
+            origin += eye;
+            direction -= stereo.inverse_convergence() * eye;
+        }
+        Some(Unscaled {
+            middle: pose.position + pose.to_world(origin),
+            direction: pose.to_world(direction),
+            offset: pose.to_world(lens.extend(0.0)),
+            focus_distance: pose.focus_distance,
+        })
     }
 }
 

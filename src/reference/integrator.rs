@@ -15,7 +15,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample, Density};
-use super::camera::ProjectiveCamera;
+use super::camera::CameraRays;
 use super::emission::emitted;
 use super::free_flight::fly;
 use super::guided::GuidedPhase;
@@ -44,7 +44,7 @@ pub struct Integrator {
     center: DVec3,
     world: World,
     lights: Lights,
-    camera: ProjectiveCamera,
+    camera: CameraRays,
     /// Something does.
     moves: bool,
     /// By material: it, or a part of its blend, gives light, and the camera does not see it.
@@ -86,7 +86,7 @@ struct Path {
 impl Integrator {
     /// The radiance one sample of one pixel sees. `visitor` is told everything that happens.
     pub fn radiance<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> Spectrum {
-        let mut path = self.camera_path(x, y, sampler, visitor);
+        let Some(mut path) = self.camera_path(x, y, sampler, visitor) else { return Spectrum::BLACK };
         loop {
             visitor.ray(&path.ray);
             let hit = visitor.first_hit(&self.world, &path.ray, &path.time);
@@ -97,11 +97,11 @@ impl Integrator {
         }
     }
 
-    /// A path of which only the camera's ray is there.
-    fn camera_path<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> Path {
-        let mut ray = self.camera.sample(x, y, sampler);
+    /// A path of which only the camera's ray is there; None where the camera sees nothing.
+    fn camera_path<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> Option<Path> {
+        let mut ray = self.camera.sample(x, y, sampler)?;
         visitor.round_ray(&mut ray, None);
-        Path {
+        Some(Path {
             reference: ray.origin.into(),
             ray,
             time: self.path_time(sampler),
@@ -113,7 +113,7 @@ impl Integrator {
             stack: MediumStack::around(self.media.around_camera),
             depth: 1,
             vertex: 0,
-        }
+        })
     }
 
     /// Uniform over the time for which the shutter is open.

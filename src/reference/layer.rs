@@ -28,11 +28,27 @@ pub fn layer_scene(scene: &Scene, layer: KernelLayer) -> Cow<'_, Scene> {
     Cow::Owned(scene)
 }
 
+/// How the layer of depth is measured.
+#[derive(Debug, Clone, Copy)]
+pub struct DepthMeasure {
+    /// From this point.
+    pub origin: DVec3,
+    /// Along this direction; None: by distance.
+    pub forward: Option<DVec3>,
+}
+
+impl DepthMeasure {
+    /// Depth of a position.
+    fn of(&self, position: DVec3) -> f64 {
+        let way = position - self.origin;
+        self.forward.map_or_else(|| way.length(), |forward| way.dot(forward))
+    }
+}
+
 /// Watches a path of a [`layer_scene`], and gives it up where the layer's surface is reached.
 pub struct LayerVisitor<'a, V> {
     layer: KernelLayer,
-    /// The point from which depth is counted, and the direction along which.
-    camera: [DVec3; 2],
+    depth: DepthMeasure,
     /// Is told of rays, and may give paths up as well.
     other: &'a mut V,
     /// Edges up to the ray's end.
@@ -45,9 +61,9 @@ pub struct LayerVisitor<'a, V> {
 }
 
 impl<'a, V: PathVisitor> LayerVisitor<'a, V> {
-    pub fn new(layer: KernelLayer, camera: [DVec3; 2], other: &'a mut V) -> Self {
+    pub fn new(layer: KernelLayer, depth: DepthMeasure, other: &'a mut V) -> Self {
         let (throughput, light) = (Spectrum::WHITE, Spectrum::BLACK);
-        Self { layer, camera, other, edges: 1, throughput, found: None, reached: false, light }
+        Self { layer, depth, other, edges: 1, throughput, found: None, reached: false, light }
     }
 
     /// The layer's value for a path that found this radiance; None where a layer of surfaces met nothing.
@@ -77,12 +93,11 @@ impl<V: PathVisitor> PathVisitor for LayerVisitor<'_, V> {
     }
 
     fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, throughput: Spectrum) {
-        let [origin, forward] = self.camera;
         let normal = surface.point.normal;
         self.throughput = throughput;
         self.found = Some(match self.layer {
             KernelLayer::Position => color_of(surface.point.position),
-            KernelLayer::Depth => Spectrum::grey((surface.point.position - origin).dot(forward)),
+            KernelLayer::Depth => Spectrum::grey(self.depth.of(surface.point.position)),
             KernelLayer::Normal => color_of(if normal.dot(wo) > 0.0 { normal } else { -normal }),
             _ => Spectrum::BLACK,
         });

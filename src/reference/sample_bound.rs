@@ -260,7 +260,8 @@ fn glass_is_closed(scene: &Scene) -> Result<(), Unbounded> {
         if !is_closed(shape) {
             return none(format!("{} is of glass and not closed", shape.label));
         }
-        let margin = scene.camera.aperture.as_ref().map_or(0.0, |aperture| aperture.radius);
+        let lens = scene.camera.aperture.as_ref().map_or(0.0, |aperture| aperture.radius);
+        let margin = lens + scene.camera.stereo.map_or(0.0, |stereo| 0.5 * stereo.eye_distance);
         let holds = |[low, high]: [glam::DVec3; 2]| camera.cmpge(low - margin).all() && camera.cmple(high + margin).all();
         if shape.bounds().is_none_or(holds) {
             return none(format!("the camera may be within {}, which is of glass", shape.label));
@@ -284,7 +285,7 @@ mod tests {
 
     fn scene(rest: &str) -> Scene {
         let text = format!(
-            "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[render]\nmax_depth = 3\n[[material]]\nname = 'grey'\n\
+            "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[render]\nmax_depth = 3\nguiding = 'off'\n[[material]]\nname = 'grey'\n\
              type = 'diffuse'\nreflectance = 0.5\n[[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'grey'\n{rest}"
         );
         load_toml_str(&text, "test", std::path::Path::new(".")).unwrap_or_else(|error| panic!("{error}"))

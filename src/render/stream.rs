@@ -109,7 +109,7 @@ impl Renderer {
             && bulk.digest(&as_before) == earlier.scene_hash
             && scene.shapes_stand_as_in(before)
             && scene.camera.aperture == before.camera.aperture
-            && std::mem::discriminant(&scene.camera.projection) == std::mem::discriminant(&before.camera.projection);
+            && scene.camera.has_kernels_of(&before.camera);
         let change = if is_camera { Change::Camera } else { Change::Shapes };
         let renderer = renderer.with_scene(scene, change)?;
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());

@@ -1,12 +1,13 @@
 //! The files of `shaders/`, embedded.
 
+use crate::scene::camera::model::camera_table;
 use crate::scene::light::light_table;
 use crate::scene::material::material_table;
 use crate::scene::shape::shape_table;
 
 macro_rules! shader_files {
     ($($name:literal),* $(,)?) => {
-        /// All but those of lobes, lights and shapes.
+        /// All but those of cameras, lobes, lights and shapes.
         const FILES: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name)))),*];
     };
 }
@@ -96,6 +97,7 @@ shader_files![
     "shading/microfacet/spectral_dielectric.wgsl",
     "shading/microfacet/thin_film.wgsl",
     "shading/path/arrival.wgsl",
+    "shading/path/camera_path.wgsl",
     "shading/path/guide.wgsl",
     "shading/path/guided.wgsl",
     "shading/path/guided_phase.wgsl",
@@ -161,6 +163,17 @@ macro_rules! light_files {
 }
 light_table!(light_files);
 
+/// The file of each model in the table of cameras.
+macro_rules! camera_files {
+    ($($(#[$meta:meta])* $variant:ident $file:ident $switch:ident $($needed:ident)*,)*) => {
+        const CAMERAS: &[(&str, &str)] = &[$((
+            concat!("core/camera/", stringify!($file), ".wgsl"),
+            include_str!(concat!("../../shaders/core/camera/", stringify!($file), ".wgsl")),
+        ),)*];
+    };
+}
+camera_table!(camera_files);
+
 /// The files of each primitive in the table of shapes.
 macro_rules! shape_files {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
@@ -180,5 +193,5 @@ shape_table!(shape_files);
 
 /// Name within `shaders/` and text of every file.
 pub fn files() -> impl Iterator<Item = (&'static str, &'static str)> {
-    FILES.iter().chain(LOBES).chain(LIGHTS).chain(SHAPES).copied()
+    FILES.iter().chain(CAMERAS).chain(LOBES).chain(LIGHTS).chain(SHAPES).copied()
 }

@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
+use crate::scene::camera::model::camera_table;
 use crate::scene::light::light_table;
 use crate::scene::material::material_table;
 use crate::scene::shape::shape_table;
@@ -116,6 +117,19 @@ macro_rules! lights {
 }
 light_table!(lights);
 
+/// A switch for each model in the table of cameras.
+macro_rules! cameras {
+    ($($(#[$meta:meta])* $variant:ident $module:ident $switch:ident $($needed:ident)*,)*) => {
+        /// Models of cameras whose picture is not flat: one at most.
+        const CAMERA_MODELS: &[&str] = &[$(stringify!($switch)),*];
+
+        const CAMERAS: &[Switch] = &[
+            $(switch(stringify!($switch)).requires(&["CAMERA_MODEL", $(stringify!($needed)),*]).excludes(CAMERA_MODELS),)*
+        ];
+    };
+}
+camera_table!(cameras);
+
 /// Ways in which the texels of images are kept.
 const TEXEL_FORMATS: &[&str] = &["TEXELS_IN_BYTES", "TEXELS_IN_FLOATS", "TEXELS_IN_HALF_FLOATS", "TEXELS_IN_SHORTS"];
 
@@ -143,7 +157,7 @@ const CLAMPED_BY_NONE: &[&str] =
 
 /// The table, in alphabetical order.
 pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
-    let mut rows = [&[OF_FEATURES, LOBES, LIGHTS], SHAPES].concat().concat();
+    let mut rows = [&[OF_FEATURES, LOBES, LIGHTS, CAMERAS], SHAPES].concat().concat();
     rows.sort_by_key(|row| row.name);
     rows
 });
@@ -162,6 +176,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("BECKMANN"),
     // Some interface of a stack has a normal map of its own.
     switch("BENT_LAYERS").requires(&["LAYERED", "NORMAL_MAPS", "TANGENTS"]),
+    // Some place of the picture sees nothing.
+    switch("BLIND_PIXELS"),
     switch("BLENDS").one_of(&["MIXTURE", "PICK"]),
     // Places of scattering are drawn by angle alone, or by distance alone.
     switch("BY_ANGLE").requires(&["SCATTERING"]).excludes(&["BY_DISTANCE"]),
@@ -170,6 +186,10 @@ const OF_FEATURES: &[Switch] = &[
     switch("BUMP_MAPS").requires(&["NORMAL_MAPS"]),
     // Kernels walk nodes.
     switch("BVH").one_of(IN_HIERARCHY).excludes(&["RAY_QUERY"]),
+    // The picture is not flat.
+    switch("CAMERA_MODEL").one_of(CAMERA_MODELS).excludes(&["ORTHOGRAPHIC"]),
+    // The picture consists of several views.
+    switch("CAMERA_TILES"),
     // The camera moves while the shutter is open.
     switch("CAMERA_MOTION"),
     // Surfaces know what the path carries to them.
@@ -180,6 +200,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("COLOR1"),
     switch("COMPENSATION").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
     switch("DELTA_LIGHTS").one_of(DELTA),
+    // The layer of depth is the distance from the camera.
+    switch("DEPTH_BY_DISTANCE"),
     switch("DIGITAL_SHIFT").requires(&["SEQUENCE"]),
     switch("CLAMP").excludes(CLAMPED_BY_NONE),
     switch("EMISSION"),
@@ -304,6 +326,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("SPHERE_POINTS").requires(&["SPHERE_LIGHTS"]).one_of(&["SPHERE_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_POINT"]),
     // The intensity of some spot light falls otherwise than by the smooth step.
     switch("SPOT_FALLOFFS").requires(&["SPOT_LIGHT"]),
+    // Two eyes have a view each.
+    switch("STEREO").requires(&["CAMERA_TILES"]).excludes(&["CUBE_MAP"]),
     switch("SUBGROUP_QUEUES"),
     switch("TAKEN_PIXELS").excludes(&["TRACE"]),
     // The directions of texture coordinates matter to some lobe.
@@ -328,6 +352,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("TRIANGLES_BY_SOLID_ANGLE").requires(&["FLAT_LIGHTS_BY_SOLID_ANGLE", "TRIANGLE_LIGHTS"]),
     // Shadow rays go on through null surfaces.
     switch("TRANSPARENT_SHADOWS").requires(&["LIGHTS", "NULL_SURFACES"]),
+    // Each eye is on a circle, where the other is beside it for who looks that way.
+    switch("TURNING_EYES").requires(&["STEREO"]).one_of(&["CYLINDRICAL", "EQUIRECTANGULAR"]),
     switch("UNIFORM_HEMISPHERE"),
     switch("UNIFORM_NODES").requires(&["BVH"]),
     switch("UNIFORM_PRIMITIVES"),

@@ -7,6 +7,7 @@ pub mod files;
 pub mod media;
 pub mod picture;
 pub mod pixel_bits;
+pub mod projections;
 pub mod ray_queries;
 pub mod scenes;
 pub mod sphere;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
-use gpt::learn::settle;
+use gpt::learn::{Effort, settle};
 use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
@@ -61,13 +61,41 @@ const OF_SETTINGS: [&str; 11] = [
     "PIXEL_LCG",
 ];
 
+/// Those of cameras whose picture is not flat, or is not one: a scene has one camera.
+const OF_CAMERAS: [&str; 12] = [
+    "BLIND_PIXELS",
+    "BROWN_CONRADY",
+    "CAMERA_MODEL",
+    "CAMERA_TILES",
+    "CUBE_MAP",
+    "CYLINDRICAL",
+    "DEPTH_BY_DISTANCE",
+    "EQUIRECTANGULAR",
+    "FISHEYE",
+    "KANNALA_BRANDT",
+    "STEREO",
+    "TURNING_EYES",
+];
+
+/// A built-in scene with every example of a camera.
+fn with_cameras() -> Vec<Scene> {
+    let text = load::builtin_text("spheres").expect("it is built in");
+    let of_example = |example: &load::file::CameraExample| {
+        let [width, height] = example.size;
+        let size = format!("size = [{width}, {height}]");
+        let text = text.replace("size = [640, 360]", &size).replace("vfov     = 32\n", example.keys);
+        load::load_toml_str(&text, "spheres.toml", std::path::Path::new("")).expect(example.name)
+    };
+    load::file::CAMERA_EXAMPLES.iter().map(of_example).collect()
+}
+
 /// The switches that scenes compile in on a device.
 fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -> BTreeSet<&'static str> {
     let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
     let of_scene = |scene: &Scene| {
         let mut packed = PackedScene::for_traversal(scene, traversal).expect("it packs");
-        if scene.render.guiding != Guiding::Off {
-            let guide = settle(scene).expect("the reference renders it").guide;
+        if scene.render.guiding == Guiding::On {
+            let guide = settle(scene, Effort::default()).expect("the reference renders it").guide;
             packed.guide = guide.map_or_else(Vec::new, |guide| guide.words().to_vec());
         }
         // Ray queries do not see what moves.
@@ -104,7 +132,7 @@ fn built_in_scenes_use_every_switch() {
     let mut scenes = compiled_in(&built_in, &hardware, &PlanOptions::default());
     scenes.extend(compiled_in(&in_frames, &hardware, &PlanOptions::default()));
     let every = SWITCHES.iter().filter(|switch| !switch.debug).map(|switch| switch.name);
-    let is_elsewhere = |name: &&str| OF_DEVICES.contains(name) || OF_SETTINGS.contains(name);
+    let is_elsewhere = |name: &&str| OF_DEVICES.contains(name) || OF_SETTINGS.contains(name) || OF_CAMERAS.contains(name);
     let missing: Vec<_> = every.clone().filter(|name| !scenes.contains(name) && !is_elsewhere(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?}");
 
@@ -117,6 +145,7 @@ fn built_in_scenes_use_every_switch() {
     let by_query = PlanOptions { traversal: TraversalChoice::RayQuery, ..PlanOptions::default() };
     let of_some_pixels = PlanOptions { pixel_list: true, ..PlanOptions::default() };
     let mut anywhere = scenes;
+    anywhere.extend(compiled_in(&with_cameras(), &hardware, &PlanOptions::default()));
     for (limits, options) in [
         (software, PlanOptions::default()),
         (with_subgroups, of_some_pixels),

@@ -12,6 +12,7 @@ mod bad_materials;
 mod bad_scenes;
 mod blends;
 mod builtin_scenes;
+mod cameras;
 mod deformations;
 mod flip;
 mod hierarchy;

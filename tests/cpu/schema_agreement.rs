@@ -59,6 +59,12 @@ const RELATIONS: &[&str] = &[
     "a mesh of a group",
     "instances that give light do not move",
     "flattens it",
+    "must rise",
+    "a fisheye that is",
+    "no place of its picture",
+    "divided evenly",
+    "are squares",
+    "no plane to be in focus",
     "reaches farther than",
 ];
 
@@ -229,6 +235,14 @@ fn right_files() -> Vec<Value> {
         let material = format!("[[material]]\nname = \"m{place}\"\n{keys}");
         texts.push(format!("{EVERYTHING}{}{material}", load::file::example_materials()));
     }
+    for example in load::file::CAMERA_EXAMPLES {
+        let [width, height] = example.size;
+        texts.push(format!(
+            "film = {{ size = [{width}, {height}] }}\n[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n{}[[light]]\ntype = \"environment\"\nradiance = 1\n\
+             [[material]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n",
+            example.keys
+        ));
+    }
     texts.extend(["cornell", "veach-mis", "motion-blur"].into_iter().filter_map(load::builtin_text).map(str::to_owned));
     let right = |text: &String| load::load_toml_str(text, "right.toml", Path::new("")).is_ok();
     let files: Vec<Value> =
@@ -271,6 +285,9 @@ impl Generator {
             json!("plain"),
             json!("mirror"),
             json!("box"),
+            json!("fisheye"),
+            json!("brown_conrady"),
+            json!("kannala_brandt"),
             json!(""),
             json!(true),
             json!([]),

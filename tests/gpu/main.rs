@@ -7,6 +7,7 @@ mod common;
 mod statistics;
 
 mod agreement;
+mod cameras;
 mod checkpoints;
 mod chunks;
 mod clamp;

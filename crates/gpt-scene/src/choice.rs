@@ -6,6 +6,8 @@ pub trait Choice: Copy + PartialEq + 'static {
     const VALUES: &'static [Self];
     /// The names and meanings of [`Choice::VALUES`], in the same order.
     const NAMES: &'static [Named];
+    /// The names alone.
+    const WORDS: &'static [&'static str];
 
     /// The name of the value for people.
     fn name(self) -> &'static str;
@@ -48,6 +50,7 @@ macro_rules! choices {
         impl $crate::choice::Choice for $type {
             const VALUES: &'static [Self] = &Self::ALL;
             const NAMES: &'static [$crate::choice::Named] = &[$($crate::choice::Named { name: $name, doc: concat!($($doc),+) }),+];
+            const WORDS: &'static [&'static str] = &[$($name),+];
 
             fn name(self) -> &'static str {
                 match self {

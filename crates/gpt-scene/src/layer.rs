@@ -11,7 +11,7 @@ choices! {
         Normal = "normal",
         /// The place of the first surface in the world: P.X, .Y, .Z.
         Position = "position",
-        /// Distance of the first surface along the viewing direction: Z.
+        /// Distance of the first surface along the viewing direction: Z. Of a camera that sees around, from the camera's position.
         Depth = "depth",
         /// Share of the pixel in which a surface is met, by which R, G and B are multiplied already: A.
         Alpha = "alpha",
@@ -46,7 +46,7 @@ choices! {
         Normal = "normal",
         /// Points of surfaces.
         Position = "position",
-        /// Distances along the viewing direction.
+        /// Distances along the viewing direction, or from the camera's position.
         Depth = "depth",
         /// Squares of radiance.
         Squares = "squares",

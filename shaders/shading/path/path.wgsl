@@ -153,6 +153,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     let wo = -incoming.ray.direction;
     let has_left = hit.primitive == NONE;
     var shading = no_shading();
+    if HAS_BLIND_PIXELS && is_blind(incoming, vertex) {
+        return shading;
+    }
     var surface: Surface;
     // Not 0 where a medium scatters the path before it comes to the end of its ray.
     var phase = 0u;

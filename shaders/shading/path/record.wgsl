@@ -82,6 +82,15 @@ fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
     return path;
 }
 
+// The camera sees nothing where this path begins.
+fn is_blind(path: Path, vertex: u32) -> bool {
+    if HAS_BLIND_PIXELS {
+        return vertex == 1u && all(path.throughput == BLACK);
+    } else {
+        return false;
+    }
+}
+
 // The path's ray from where light was last sampled: shadow rays from there meet the same surfaces as the path, and go on through null ones
 // as it does. So what both find is shared out by the densities that they have there.
 fn ray_from_reference_point(path: Path) -> Ray {

@@ -32,6 +32,8 @@ fn surface_value(throughput: Spectrum, surface: Surface, drawn: BsdfSample) -> v
         return surface.shading_normal;
     } else if HAS_LAYER_POSITION {
         return surface.position;
+    } else if HAS_DEPTH_BY_DISTANCE {
+        return vec3<f32>(distance(surface.position, view.position.xyz));
     } else {
         return vec3<f32>(dot(surface.position - view.position.xyz, view.forward.xyz));
     }
@@ -43,6 +45,10 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     var incoming = *path;
     let wo = -incoming.ray.direction;
     var shading = no_shading();
+    if HAS_BLIND_PIXELS && is_blind(incoming, vertex) {
+        shading.radiance = vec3<f32>(NOTHING_MET);
+        return shading;
+    }
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     if hit.primitive == NONE {
         shading.radiance = vec3<f32>(NOTHING_MET);

@@ -1,11 +1,17 @@
 use super::*;
 use crate::compare::sidak;
 use crate::scene::EXPOSURE_STRETCHES;
+use crate::scene::{Aperture, Projection};
 use crate::statistics::{chi_squared_test, random::SplitMix64};
 
-fn camera(projection: Projection, aperture: Option<Aperture>) -> ProjectiveCamera {
+fn camera(projection: Projection, aperture: Option<Aperture>) -> CameraRays {
     let camera = Camera { position: DVec3::new(0.0, 0.0, 5.0), projection, aperture, focus_distance: 4.0, ..Camera::default() };
-    ProjectiveCamera::new(&camera, &FilmSettings { size: [200, 100], ..FilmSettings::default() })
+    CameraRays::new(&camera, &FilmSettings { size: [200, 100], ..FilmSettings::default() })
+}
+
+/// The ray through a film position of a picture of one view.
+fn ray(camera: &CameraRays, film: [f64; 2], lens: DVec2, time: f64) -> Ray {
+    camera.ray([0, 0], film.into(), lens, time).expect("all places see something")
 }
 
 const WIDE: Projection = Projection::Perspective { vertical_fov_degrees: 90.0 };
@@ -15,7 +21,7 @@ const FLAT: Projection = Projection::Orthographic { height: 3.0 };
 fn corners_look_where_they_should() {
     let camera = camera(WIDE, None);
     let expect = |film_x, film_y, direction: DVec3| {
-        let ray = camera.ray(film_x, film_y, DVec2::ZERO, 0.0);
+        let ray = ray(&camera, [film_x, film_y], DVec2::ZERO, 0.0);
         assert!((ray.direction - direction.normalize()).length() < 1e-15);
     };
     expect(0.0, 0.0, DVec3::new(-2.0, 1.0, -1.0));
@@ -27,14 +33,14 @@ fn corners_look_where_they_should() {
 fn parallel_rays_start_on_the_window() {
     let camera = camera(FLAT, None);
     for (film, origin) in [([0.0, 0.0], DVec3::new(-3.0, 1.5, 5.0)), ([200.0, 50.0], DVec3::new(3.0, 0.0, 5.0))] {
-        let ray = camera.ray(film[0], film[1], DVec2::ZERO, 0.0);
+        let ray = ray(&camera, film, DVec2::ZERO, 0.0);
         assert_eq!((ray.origin, ray.direction), (origin, -DVec3::Z));
     }
 }
 
 /// The point at which rays of one film position cross a plane `depth` before the camera.
-fn crossing(camera: &ProjectiveCamera, film: [f64; 2], lens: DVec2, depth: f64) -> DVec3 {
-    let ray = camera.ray(film[0], film[1], lens, 0.0);
+fn crossing(camera: &CameraRays, film: [f64; 2], lens: DVec2, depth: f64) -> DVec3 {
+    let ray = ray(camera, film, lens, 0.0);
     ray.origin + ray.direction * ((5.0 - depth - ray.origin.z) / ray.direction.z)
 }
 
@@ -169,14 +175,14 @@ fn rays_follow_a_camera_that_turns() {
         Scene { camera: exposure[0].clone(), exposure, film, ..Scene::default() }
     };
     let farthest = |stop: f64| {
-        let camera = ProjectiveCamera::of(&scene(stop));
+        let camera = CameraRays::of(&scene(stop));
         let mut farthest = 0.0_f64;
         for step in 0..=100 {
             let time = f64::from(step) / 100.0;
             for [x, y] in [[50.0, 50.0], [0.0, 0.0], [100.0, 20.0]] {
                 let turn = glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_4 * time);
                 let truth = turn * DVec3::new(x / 50.0 - 1.0, 1.0 - y / 50.0, -1.0).normalize();
-                farthest = farthest.max(camera.ray(x, y, DVec2::ZERO, time).direction.distance(truth).to_degrees());
+                farthest = farthest.max(ray(&camera, [x, y], DVec2::ZERO, time).direction.distance(truth).to_degrees());
             }
         }
         farthest

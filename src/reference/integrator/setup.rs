@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::Integrator;
-use crate::reference::camera::ProjectiveCamera;
+use crate::reference::camera::CameraRays;
 use crate::reference::intersect::{Outline, Owner, PathTime, Ray, World};
+use crate::reference::layer::DepthMeasure;
 use crate::reference::layered::LayersOfMaterials;
 use crate::reference::lights::Lights;
 use crate::reference::medium::MediumStack;
@@ -26,7 +27,7 @@ impl Integrator {
         let scene = &*scene.centered();
         let world = World::new(scene)?;
         let lights = Lights::new(scene, &world);
-        let camera = ProjectiveCamera::of(scene);
+        let camera = CameraRays::of(scene);
         let instances_move = scene.instances.iter().any(|instances| instances.motion.is_some());
         let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
         let hides = scene.render.emitters == Emitters::Hidden;
@@ -54,7 +55,7 @@ impl Integrator {
         }
         let centered = scene.centered();
         (self.scene.camera, self.scene.exposure) = (centered.camera.clone(), centered.exposure.clone());
-        self.camera = ProjectiveCamera::of(&self.scene);
+        self.camera = CameraRays::of(&self.scene);
         true
     }
 
@@ -62,18 +63,18 @@ impl Integrator {
         &self.scene
     }
 
-    /// The camera's place, relative to the scene's center, and the direction in which it looks.
-    pub fn view_axis(&self) -> [DVec3; 2] {
+    /// How depth is measured, relative to the scene's center.
+    pub fn depth_measure(&self) -> DepthMeasure {
         let camera = &self.scene.camera;
-        [camera.position, -camera.frame()[2]]
+        let forward = camera.measures_depth_along_axis().then(|| -camera.frame()[2]);
+        DepthMeasure { origin: camera.position, forward }
     }
 
     /// The owner of the surface that the ray through the middle of a pixel and of the lens meets when the
     /// shutter opens.
     pub fn owner_at_centre(&self, x: u32, y: u32) -> Option<Owner> {
-        let ray = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, DVec2::ZERO, 0.0);
+        let mut ray = self.camera.middle(x, y)?;
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
-        let mut ray = ray;
         loop {
             let hit = self.world.closest(ray, &time)?;
             let surface = self.world.surface(&ray, &hit, &time);

@@ -11,7 +11,7 @@ filter = { type = \"tent\", radius = -1, width = 2 }
 position = \"here\"
 look_at = [0, 0]
 vfov = -1
-fov = 40
+angle = 40
 [[material]]
 name = [\"a\"]
 type = \"diffuse\"
@@ -40,7 +40,7 @@ material = \"b\"
         (5, "camera.position", "invalid type: string \"here\", expected an array"),
         (6, "camera.look_at", "wrong number of values: 2"),
         (7, "camera.vfov", "expected an angle from 0.001 to 179"),
-        (8, "camera.fov", "unknown key `fov`"),
+        (8, "camera.angle", "unknown key `angle`"),
         (10, "material[0].name", "invalid type: array"),
         (12, "material[0].reflectance", "expected a colour such as"),
         (15, "shape[0].radius", "invalid type: table"),

@@ -1,6 +1,7 @@
 //! The GPU's picture against the reference's, path by path, for every built-in scene and every way to run it.
 
 mod blends;
+mod cameras;
 mod features;
 mod flat_lights;
 mod instances;

@@ -6,7 +6,7 @@ use super::animation::{Moment, motion_between};
 use super::model::Scene;
 use super::shape::{Geometry, Shape};
 use super::transform::{Transform, TransformStep};
-use super::validate::{InvalidScene, check_camera};
+use super::validate::InvalidScene;
 
 impl Scene {
     /// The scene as it is at a frame, which need not be a whole number. Shapes whose keys move them while the shutter is open are blurred: they
@@ -23,11 +23,11 @@ impl Scene {
         scene.first_poses = animation.first_poses();
         scene.camera = animation.camera_at(&self.camera, frame);
         let of = |part: String, message: String| InvalidScene { part: format!("frame {frame}: {part}"), message };
-        check_camera(&scene.camera).map_err(|message| of("camera".to_owned(), message))?;
+        scene.camera.check(scene.film.size).map_err(|message| of("camera".to_owned(), message))?;
         let shutter = scene.camera.shutter;
         scene.exposure = animation.exposure(&self.camera, frame);
         for camera in &scene.exposure {
-            check_camera(camera).map_err(|message| of("camera, while the shutter is open".to_owned(), message))?;
+            camera.check(scene.film.size).map_err(|message| of("camera, while the shutter is open".to_owned(), message))?;
         }
         for track in &animation.deformations {
             let shape = &mut scene.shapes[track.shape];

@@ -41,7 +41,10 @@ pub mod volume;
 
 pub use animation::Animation;
 pub use blend_tree::{MOST_LEAVES, check_blends};
-pub use camera::{Aperture, ApertureShape, Camera, EXPOSURE_STRETCHES, Projection};
+pub use camera::{
+    Aperture, ApertureShape, BrownConrady, Camera, CubeLayout, CubeMap, Cylindrical, EXPOSURE_STRETCHES, Equirectangular, Eyes,
+    Fisheye, FisheyeFit, FisheyeMapping, Intrinsics, KannalaBrandt, Projection, Stereo, StereoLayout, ViewPlace, Window,
+};
 pub use check::FARTHEST;
 pub use digest::{BulkDigest, digest};
 pub use flat_layers::FlatLayer;

@@ -3,11 +3,8 @@
 //! Files are checked as they are read, with the line of each mistake. A scene that a program builds by hand is checked here, whichever
 //! device renders it: both the packed scene and the reference look indices up without asking again.
 
-use glam::DVec3;
-
 use super::blend_tree::check_blends;
-use super::camera::{ApertureShape, Camera, Projection};
-use super::check::{Check, image, is_amount, is_positive, within_range};
+use super::check::{Check, image, is_amount, is_positive};
 use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{BlendWeight, LayerStack, Material, MaterialId, MaterialKind, ParameterType, Subsurface};
 use super::medium::MediumId;
@@ -19,8 +16,6 @@ use crate::spectrum::Spectrum;
 
 /// Most octaves of Perlin noise: further ones are finer than the numbers that they are computed in.
 pub const MOST_OCTAVES: u32 = 16;
-/// Corners of a polygonal aperture.
-pub const BLADES: std::ops::RangeInclusive<u32> = 3..=64;
 /// A mistake in a scene, with the part that has it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{part}: {message}")]
@@ -45,7 +40,7 @@ impl Scene {
         let words = |bad: BadSetting| bad.to_string();
         of(|| "film".into(), self.film.check().map_err(words))?;
         of(|| "render settings".into(), self.render.check().map_err(words))?;
-        of(|| "camera".into(), check_camera(&self.camera))?;
+        of(|| "camera".into(), self.camera.check(self.film.size))?;
         for texture in &self.textures {
             of(|| format!("texture `{}`", texture.name), check_texture(texture).and(self.check_times(texture)))?;
         }
@@ -294,44 +289,6 @@ fn check_openness(shape: &Shape, open: &[Vec<[f64; 2]>], stands_alone: bool) -> 
     }
     if !mesh.second_uvs.is_empty() {
         return Err("a weight by openness (`open`) takes the place of second texture coordinates, which this mesh has".into());
-    }
-    Ok(())
-}
-
-/// Checks that pictures can be taken with the camera.
-pub(super) fn check_camera(camera: &Camera) -> Check {
-    if !camera.frame().into_iter().all(DVec3::is_finite) || !camera.position.is_finite() {
-        return Err("it looks at the point it stands at, or along `up`".into());
-    }
-    within_range(camera.position.length())?;
-    match camera.projection {
-        Projection::Perspective { vertical_fov_degrees: angle } if !(angle > 0.0 && angle < 180.0) => {
-            return Err(format!("the field of view must be between 0 and 180 degrees and is {angle}"));
-        }
-        Projection::Orthographic { height } if !is_positive(height) => {
-            return Err(format!("the height of its window must be positive and is {height}"));
-        }
-        _ => {}
-    }
-    if let Some(aperture) = camera.aperture {
-        if !is_positive(aperture.radius) || !is_positive(camera.focus_distance) {
-            return Err("the aperture's radius and the distance in focus must be positive".into());
-        }
-        if let ApertureShape::Polygon { blades, rotation_degrees } = aperture.shape
-            && !(BLADES.contains(&blades) && rotation_degrees.is_finite())
-        {
-            return Err(format!("an aperture has {} to {} blades, not {blades}", BLADES.start(), BLADES.end()));
-        }
-    }
-    if !camera.shift.into_iter().all(f64::is_finite) {
-        return Err("its shift must be finite".into());
-    }
-    if !(camera.stretch.is_finite() && camera.stretch != 0.0) {
-        return Err("its stretch must be finite and not 0".into());
-    }
-    let [open, close] = camera.shutter;
-    if !(open.is_finite() && close.is_finite() && open <= close) {
-        return Err("the shutter closes before it opens".into());
     }
     Ok(())
 }

@@ -53,8 +53,9 @@ pub fn shape(track: &ShapeTrack, nodes: &Names) -> String {
 /// Keyframes of the camera.
 pub fn camera(track: &CameraTrack, projection: Projection, nodes: &Names) -> String {
     let opening = match projection {
-        Projection::Perspective { .. } => "vfov",
         Projection::Orthographic { .. } => "height",
+        // Others have no keys for it, so none are written.
+        _ => "vfov",
     };
     let place = |key, curve: &Curve<DVec3>| Written::of(key, curve, |value| vector(*value));
     let written = vec![

@@ -9,8 +9,10 @@
 //! blends.
 
 mod animation;
+mod camera;
 mod emission;
 mod export_format;
+mod flat_camera;
 mod gltf;
 mod inputs;
 mod losses;

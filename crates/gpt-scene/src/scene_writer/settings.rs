@@ -1,12 +1,11 @@
-//! `[film]`, `[render]`, `[output]` and `[camera]`.
+//! `[film]`, `[render]`, `[output]` and, by `camera`, `[camera]`.
 
 use std::fmt::Write;
 
-use glam::DVec3;
-
+use super::camera;
 use crate::choice::Choice;
-use crate::load::file::writer::{Writer, line, list, number, numbers, table, text, vector};
-use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Filter, PixelSampler, Projection, RenderSettings};
+use crate::load::file::writer::{Writer, line, list, number, table, text};
+use crate::scene::{FilmSettings, Filter, PixelSampler, RenderSettings};
 
 /// All four; of the settings, those that are not at their defaults.
 pub fn settings(writer: &Writer<'_>) -> String {
@@ -20,7 +19,7 @@ pub fn settings(writer: &Writer<'_>) -> String {
         let names = scene.layers.iter().map(|layer| text(layer.name()));
         let _ = write!(out, "\n[output]\n{}", line("aov", &list(names)));
     }
-    out += &camera(&scene.camera);
+    out += &camera::camera(&scene.camera);
     if let Some(medium) = scene.camera_medium {
         out += &line("medium", &writer.media.quoted(medium));
     }
@@ -50,46 +49,4 @@ fn render(settings: &RenderSettings) -> String {
             line(setting.name, &value)
         })
         .collect()
-}
-
-fn camera(camera: &Camera) -> String {
-    let mut out =
-        "\n[camera]\n".to_owned() + &line("position", &vector(camera.position)) + &line("look_at", &vector(camera.look_at));
-    if camera.up != DVec3::Y {
-        out += &line("up", &vector(camera.up));
-    }
-    match camera.projection {
-        Projection::Perspective { vertical_fov_degrees } => out += &line("vfov", &number(vertical_fov_degrees)),
-        Projection::Orthographic { height } => {
-            out += &line("projection", &text("orthographic"));
-            out += &line("height", &number(height));
-        }
-    }
-    if camera.shift != [0.0; 2] {
-        out += &line("shift", &numbers(&camera.shift));
-    }
-    if camera.stretch != 1.0 {
-        out += &line("stretch", &number(camera.stretch));
-    }
-    if let Some(aperture) = &camera.aperture {
-        out += &line("aperture", &opening(aperture));
-    }
-    if camera.aperture.is_some() || camera.focus_distance != (camera.look_at - camera.position).length() {
-        out += &line("focus_distance", &number(camera.focus_distance));
-    }
-    if camera.shutter != Camera::default().shutter {
-        out += &line("shutter", &numbers(&camera.shutter));
-    }
-    out
-}
-
-fn opening(aperture: &Aperture) -> String {
-    let (shape, further) = match aperture.shape {
-        ApertureShape::Disk => ("disk", Vec::new()),
-        ApertureShape::Square => ("square", Vec::new()),
-        ApertureShape::Polygon { blades, rotation_degrees } => {
-            ("polygon", vec![("blades", blades.to_string()), ("rotation", number(rotation_degrees))])
-        }
-    };
-    table([("shape", text(shape)), ("radius", number(aperture.radius))].into_iter().chain(further))
 }

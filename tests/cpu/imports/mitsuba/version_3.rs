@@ -1,6 +1,6 @@
 //! Rules of Mitsuba's version 3 that differ from what one would guess, or from its versions before 2.
 
-use gpt::scene::{Camera, EnvironmentRadiance, Geometry, Light, MaterialKind, Texture, TextureKind};
+use gpt::scene::{Camera, EnvironmentRadiance, Geometry, Light, MaterialKind, Projection, Texture, TextureKind};
 use gpt::spectrum::Spectrum;
 use gpt::{DeviceChoice, Render, RenderOptions};
 
@@ -346,9 +346,38 @@ fn sensors_mirror_and_stretch() {
         assert_eq!(camera(sensor, r#"<scale y="-1"/>"#).1, lower_left, "{sensor}");
     }
     let (uneven, _) = camera("orthographic", r#"<scale x="3" y="0.5" z="0.7"/>"#);
-    assert!(matches!(uneven.projection, gpt::scene::Projection::Orthographic { height } if (height - 1.0).abs() < 1e-12));
+    assert!(matches!(uneven.projection, Projection::Orthographic { height } if (height - 1.0).abs() < 1e-12));
     assert!((uneven.stretch - 6.0).abs() < 1e-12);
     assert!((camera("orthographic", r#"<scale x="-3" y="0.5"/>"#).0.stretch + 6.0).abs() < 1e-12);
+}
+
+/// Sensors of Mitsuba 0.6 with distortion, and with all directions in the picture. A distorted one sees what OpenCV's formula says of its `kc`.
+#[test]
+fn lenses_and_panoramas_are_read() {
+    let look = |sensor: &str, keys: &str| folder(&seen_by(sensor, keys, "", BALL)).valid("a.xml");
+    let panorama = look("spherical", "");
+    assert_eq!((report(&panorama), panorama.camera.projection), (String::new(), Projection::Equirectangular(Default::default())));
+    let fov = r#"<float name="fov" value="60"/>"#;
+    let lens = |kc: &str| look("perspective_rdist", &format!(r#"{fov}<string name="kc" value="{kc}"/>"#));
+    let scene = lens("-0.2, 0.05");
+    assert_eq!(report(&scene), "");
+    let focal = 4.0 / 30_f64.to_radians().tan();
+    let keys = format!(
+        "[film]\nsize = [8, 8]\n[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nprojection = \"brown_conrady\"\nfocal = [{focal:?}, {focal:?}]\n\
+         principal_point = [4, 4]\nimage_size = [8, 8]\nradial = [-0.2, 0.05]\n[[light]]\ntype = \"environment\"\nradiance = 1\n"
+    );
+    let by_hand = gpt::load::load_toml_str(&keys, "test.toml", std::path::Path::new("")).expect("it is right");
+    let off = |scene: &gpt::scene::Scene| match (scene.camera.projection, by_hand.camera.projection) {
+        (Projection::BrownConrady(read), Projection::BrownConrady(hand)) => format!("{read:.9?}") != format!("{hand:.9?}"),
+        _ => true,
+    };
+    assert!(!off(&scene), "{:?}", scene.camera.projection);
+    assert!(off(&lens("-0.2, 0.06")) && off(&lens("0, 0")), "the control");
+    assert!(matches!(lens("0, 0").camera.projection, Projection::Perspective { .. }));
+    let message = super::refusal(
+        folder(&seen_by("perspective_rdist", &format!(r#"{fov}<string name="kc" value="1"/>"#), "", BALL)).load("a.xml"),
+    );
+    assert!(message.contains("`kc` is two numbers"), "{message}");
 }
 
 /// A mirrored map shows ahead of the camera what the plain one shows on the other side.

@@ -3,6 +3,8 @@
 //! `document` reads the text into the types of `syntax`, which know every key and range; `resolve` looks up names and reads the
 //! files that are named. Each complains about the place where the mistake is written.
 
+mod calibration;
+mod camera_examples;
 pub(super) mod colour;
 mod document;
 mod emissive_instances;
@@ -28,6 +30,7 @@ pub(super) mod value;
 pub(crate) mod volume;
 pub(crate) mod writer;
 
+pub use camera_examples::{CAMERA_EXAMPLES, CameraExample};
 pub(crate) use document::FORMAT_VERSION;
 pub(super) use document::{Document, stem};
 pub(crate) use light::write_light;

@@ -56,6 +56,11 @@ rules! {
         const MINIMUM: f64 = SMALLEST_FILTER_RADIUS; const MAXIMUM: f64 = LARGEST_FILTER_RADIUS;
     }
     FieldOfView "an angle from 0.001 to 179 (degrees)" { const MINIMUM: f64 = 0.001; const MAXIMUM: f64 = 179.0; }
+    WholeAngle "an angle above 0, at most 360 (degrees)" {
+        const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 360.0; const ABOVE_MINIMUM: bool = true;
+    }
+    Azimuth "an angle from -360 to 360 (degrees)" { const MINIMUM: f64 = -360.0; const MAXIMUM: f64 = 360.0; }
+    Elevation "an angle from -90 to 90 (degrees)" { const MINIMUM: f64 = -90.0; const MAXIMUM: f64 = 90.0; }
     HalfAngle "an angle above 0, at most 90 (degrees)" {
         const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 90.0; const ABOVE_MINIMUM: bool = true;
     }

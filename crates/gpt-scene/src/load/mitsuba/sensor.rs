@@ -153,6 +153,9 @@ impl Converter<'_> {
                     camera.stretch = Some(place.at(plugin.possible(Checked::of(-1.0))?));
                 }
                 self.shift(plugin, &film, &mut camera)?;
+                if plugin.name.ends_with("_rdist") {
+                    self.distortion(plugin, &film, &mut camera)?;
+                }
                 if plugin.name.starts_with("thinlens") {
                     let radius = plugin.number("aperture_radius")?;
                     let radius = radius.ok_or_else(|| plugin.error("a thin lens needs `aperture_radius`"))?;
@@ -164,6 +167,16 @@ impl Converter<'_> {
                     camera.aperture = Some(place.at(ApertureEntry::Disk(RoundAperture { radius })));
                     camera.focus_distance = Some(plugin.possible(Checked::of(distance))?);
                 }
+            }
+            // The middle of the picture is straight ahead there too.
+            "spherical" => {
+                if film.crop != film.size {
+                    self.approximate(plugin, "crop of a spherical sensor", "all directions are in the picture");
+                }
+                if mirrors {
+                    self.approximate(plugin, "mirrored spherical sensor", "its picture is not mirrored");
+                }
+                camera.projection = Some(place.at(ProjectionName::Equirectangular));
             }
             other => return Err(plugin.error(format!("the sensor `{other}` cannot be said here; a perspective one can"))),
         }
@@ -251,8 +264,36 @@ impl Converter<'_> {
             (beside + principal * film.size[side]) / film.crop[side]
         });
         if shift.iter().any(|shift| shift.abs() > 1e-12) {
-            camera.shift = Some(plugin.possible(Exactly::of([shift[0], -shift[1]]))?);
+            camera.shift = Some(plugin.at().at(plugin.possible(Exactly::of([shift[0], -shift[1]]))?));
         }
+        Ok(())
+    }
+
+    /// Radial distortion, `kc`: k1 and k2 of the formula that OpenCV has.
+    fn distortion(&mut self, plugin: &Rc<Plugin>, film: &Film, camera: &mut CameraTable) -> Result<(), SceneError> {
+        let Some(written) = plugin.text("kc")? else { return Ok(()) };
+        let words = written.split([',', ' ']).filter(|word| !word.is_empty());
+        let numbers = words.map(|word| super::number::parse_number(&plugin.place, word)).collect::<Result<Vec<f64>, _>>()?;
+        let [k1, k2] = numbers[..] else {
+            return Err(plugin.error(format!("`kc` is two numbers, as \"0.1, 0\", not \"{written}\"")));
+        };
+        if k1 == 0.0 && k2 == 0.0 {
+            return Ok(());
+        }
+        if camera.stretch.take().is_some() {
+            self.approximate(plugin, "mirrored picture of a lens that distorts", "it is not mirrored");
+        }
+        (camera.vfov, camera.shift) = (None, None);
+        let focal = 0.5 * film.size[0] / self.half_width(plugin, film.size[0] / film.size[1])?;
+        let principal = [0, 1].map(|side| 0.5 * film.size[side] - film.offset[side]);
+        let size = film.crop.map(|side| NonZeroU32::new(side as u32).unwrap_or(NonZeroU32::MIN));
+        let place = plugin.at();
+        let coefficient = |value: f64| plugin.possible(Checked::of(value));
+        camera.projection = Some(place.at(ProjectionName::BrownConrady));
+        camera.focal = Some(place.at(Exactly([plugin.possible(Checked::of(focal))?; 2])));
+        camera.principal_point = Some(place.at(plugin.possible(Exactly::of(principal))?));
+        camera.image_size = Some(place.at(Exactly(size)));
+        camera.radial = Some(place.at(vec![coefficient(k1)?, coefficient(k2)?]));
         Ok(())
     }
 

@@ -266,7 +266,7 @@ impl Converter<'_> {
         let [right, up] = [0, 1].map(|side| 0.5 * (window.low[side] + window.high[side]));
         let shift = [sign * right / width, up / height];
         if shift.iter().any(|shift| shift.abs() > 1e-12) {
-            camera.shift = Some(entity.possible(Exactly::of(shift))?);
+            camera.shift = Some(entity.spot.place().at(entity.possible(Exactly::of(shift))?));
         }
         Ok(())
     }

@@ -157,6 +157,7 @@ impl CameraTrack {
                     Projection::Perspective { vertical_fov_degrees: opening(vertical_fov_degrees) }
                 }
                 Projection::Orthographic { height } => Projection::Orthographic { height: opening(height) },
+                other => other,
             },
             focus_distance: self.focus_distance.during(moment).unwrap_or(rest.focus_distance),
             ..rest.clone()

@@ -164,6 +164,16 @@ impl Choice for PixelSampler {
         values
     };
 
+    const WORDS: &'static [&'static str] = &{
+        let mut words = [""; PIXEL_SAMPLERS];
+        let mut index = 0;
+        while index < words.len() {
+            words[index] = Self::NAMES[index].name;
+            index += 1;
+        }
+        words
+    };
+
     const NAMES: &'static [Named] = &{
         let mut names = [Named { name: "same", doc: "The sampler of the path's other numbers." }; PIXEL_SAMPLERS];
         let mut index = 0;

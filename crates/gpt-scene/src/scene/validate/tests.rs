@@ -4,9 +4,11 @@ use glam::{DVec3, Vec2, Vec3};
 
 use super::*;
 use crate::scene::{
-    Aperture, CoatNormalMap, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture,
-    Masking, Medium, Mesh, Microfacets, Motion, MotionStep, Phase, PhaseKind, Plane, PointLight, Principled, ProjectedTexture,
-    Rectangle, Sphere, SpotLight, Texture, TextureFilter, TextureWrap, Transform, TransformStep,
+    Aperture, ApertureShape, BrownConrady, CoatNormalMap, ConductorFresnel, CubeLayout, CubeMap, Cuboid, Cylindrical,
+    DirectionalLight, Disk, Emission, Equirectangular, Fisheye, FisheyeFit, FisheyeMapping, Geometry, ImageData, ImageTexture,
+    Intrinsics, KannalaBrandt, Masking, Medium, Mesh, Microfacets, Motion, MotionStep, Phase, PhaseKind, Plane, PointLight,
+    Principled, ProjectedTexture, Projection, Rectangle, Sphere, SpotLight, Stereo, StereoLayout, Texture, TextureFilter,
+    TextureWrap, Transform, TransformStep,
 };
 use crate::spectrum::Spectrum;
 
@@ -161,6 +163,18 @@ fn each_mistake_is_named_with_its_part() {
         let shape = ApertureShape::Polygon { blades, rotation_degrees: 0.0 };
         scene.camera.aperture = Some(Aperture { shape, radius });
     }
+    fn fisheye(scene: &mut Scene, mapping: FisheyeMapping, fov_degrees: f64) {
+        scene.camera.projection = Projection::Fisheye(Fisheye { mapping, fov_degrees, fit: FisheyeFit::Inside });
+    }
+    fn lens(scene: &mut Scene, focal: f64, principal: f64, k1: f64) {
+        let intrinsics = Intrinsics { image_size: [512, 512], focal: [focal; 2], principal_point: [principal; 2] };
+        let radial = [k1, 0.0, 0.0, 0.0, 0.0, 0.0];
+        scene.camera.projection = Projection::BrownConrady(BrownConrady::new(intrinsics, radial, [0.0; 2]));
+    }
+    fn eyes(scene: &mut Scene, eye_distance: f64, convergence: f64) {
+        let convergence = Some(convergence);
+        scene.camera.stereo = Some(Stereo { layout: StereoLayout::SideBySide, eye_distance, convergence });
+    }
     fn emission(scene: &mut Scene, radiance: ColorInput) {
         scene.materials[0].emission = Some(Emission { radiance, two_sided: false });
     }
@@ -199,6 +213,69 @@ fn each_mistake_is_named_with_its_part() {
         (|s| aperture(s, -1.0, 6), "camera: the aperture's radius"),
         (|s| aperture(s, 1.0, 2), "camera: an aperture has 3 to 64 blades, not 2"),
         (|s| s.camera.shutter = [1.0, 0.0], "camera: the shutter closes before it opens"),
+        (
+            |s| {
+                let azimuth_degrees = [10.0, 10.0];
+                s.camera.projection = Projection::Equirectangular(Equirectangular { azimuth_degrees, ..Default::default() });
+            },
+            "camera: its azimuths must rise",
+        ),
+        (
+            |s| {
+                let elevation_degrees = Some([-20.0, 90.0]);
+                s.camera.projection = Projection::Cylindrical(Cylindrical { elevation_degrees, ..Default::default() });
+            },
+            "camera: its elevations must rise, and lie from -89.9 to 89.9",
+        ),
+        (|s| fisheye(s, FisheyeMapping::Stereographic, 360.0), "camera: the field of view of a fisheye that is stereographic"),
+        (|s| fisheye(s, FisheyeMapping::Orthographic, 180.5), "camera: the field of view of a fisheye that is orthographic"),
+        (|s| fisheye(s, FisheyeMapping::Equisolid, f64::NAN), "camera: the field of view of a fisheye that is equisolid"),
+        (
+            |s| {
+                fisheye(s, FisheyeMapping::Equidistant, 180.0);
+                aperture(s, 1.0, 6);
+            },
+            "camera: a camera that is fisheye has no plane to be in focus",
+        ),
+        (
+            |s| {
+                fisheye(s, FisheyeMapping::Equidistant, 180.0);
+                s.camera.shift = [0.1, 0.0];
+            },
+            "camera: a camera that is fisheye has no window to shift",
+        ),
+        (
+            |s| s.camera.projection = Projection::CubeMap(CubeMap { layout: CubeLayout::Grid }),
+            "camera: its picture has 3 × 2 views, into which 8 × 4 pixels cannot be divided evenly",
+        ),
+        (
+            |s| {
+                s.film.size = [600, 200];
+                s.camera.projection = Projection::CubeMap(CubeMap { layout: CubeLayout::Grid });
+            },
+            "camera: the sides of a cube map are squares, 3 × 2 of them in the picture, and these would have 200 × 100 pixels",
+        ),
+        (
+            |s| {
+                s.film.size = [600, 100];
+                s.camera.projection = Projection::CubeMap(CubeMap { layout: CubeLayout::Row });
+                eyes(s, 1.0, 1.0);
+            },
+            "camera: a camera that is cube_map has one eye",
+        ),
+        (|s| eyes(s, 0.0, 1.0), "camera: the distance of its eyes must be positive"),
+        (|s| eyes(s, 1.0, -1.0), "camera: the distance at which its eyes converge must be positive"),
+        (|s| lens(s, -1.0, 256.0, 0.0), "camera: its focal lengths must be positive"),
+        (|s| lens(s, 300.0, f64::NAN, 0.0), "camera: its principal point must be finite"),
+        (|s| lens(s, 300.0, 256.0, f64::INFINITY), "camera: the coefficients of its distortion must be finite"),
+        (|s| lens(s, 10.0, -9e3, -0.5), "camera: no place of its picture sees anything"),
+        (
+            |s| {
+                let intrinsics = Intrinsics { image_size: [0, 4], focal: [1.0; 2], principal_point: [0.0; 2] };
+                s.camera.projection = Projection::KannalaBrandt(KannalaBrandt::new(intrinsics, [0.0; 4], 360.0));
+            },
+            "camera: its calibration must be by pictures that have pixels",
+        ),
         (
             |s| {
                 let TextureKind::Image(texture) = &mut s.textures[0].kind else { panic!("the first is an image") };

@@ -29,6 +29,8 @@ impl Writer<'_> {
                 "type": "orthographic",
                 "orthographic": { "xmag": 0.5 * height * aspect, "ymag": 0.5 * height, "znear": near, "zfar": FARTHEST },
             }),
+            // Flat cameras alone come here.
+            _ => return,
         };
         let lost = [
             (camera.aperture.is_some_and(|aperture| aperture.radius > 0.0), "aperture", "everything is in focus"),

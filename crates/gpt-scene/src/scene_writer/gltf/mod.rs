@@ -26,6 +26,7 @@ use serde_json::{Map, Value, json};
 
 use self::buffer::Buffer;
 use self::made::{Made, MeshKey};
+use super::flat_camera::with_flat_camera;
 use super::losses::Losses;
 use super::surroundings::with_media_below_surfaces;
 use super::written::WrittenScene;
@@ -35,11 +36,13 @@ use crate::scene::{MaterialId, Scene};
 /// A scene as one of glTF 2.0 that is to be written to `target`: binary where that ends in `.glb`, else JSON, beside which its data and pictures lie
 /// in the folder `NAME.files`. `name` is how reports call the scene.
 pub fn as_gltf(scene: &Scene, name: &str, target: &Path) -> WrittenScene {
+    let mut losses = Losses::of(name);
+    let scene = &with_flat_camera(scene, &mut losses, |_| false);
     let scene = &with_media_below_surfaces(scene);
     let mut writer = Writer {
         scene,
         is_binary: target.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb")),
-        losses: Losses::of(name),
+        losses,
         files: SideFiles::beside(target),
         materials: Names::unique(scene.materials.iter().map(|material| material.name.as_str()), "material"),
         buffer: Buffer::default(),

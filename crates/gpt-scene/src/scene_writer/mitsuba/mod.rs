@@ -16,6 +16,7 @@ use toml::Table;
 
 use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
 use self::xml::{Element, Xml};
+use super::flat_camera::with_flat_camera;
 use super::losses::Losses;
 use super::scene_file::scene_text;
 use super::surroundings::{Surroundings, has_media};
@@ -30,11 +31,12 @@ use crate::scene::{MeterKind, Scene};
 /// # Errors
 /// None that is known: what cannot be said there is in the report.
 pub fn as_mitsuba(scene: &Scene, name: &str, target: &Path) -> Result<WrittenScene, SceneError> {
+    let mut losses = Losses::of(name);
+    let scene = &*with_flat_camera(scene, &mut losses, |_| false);
     let (text, files) = scene_text(scene, target, false);
     let tables: Table = text.parse().map_err(|error: toml::de::Error| SceneError::in_file(name, error.message().to_owned()))?;
     let surroundings = Surroundings::of(scene);
-    let (xml, losses) = (Xml::default(), Losses::of(name));
-    let mut writer = Writer { name, scene: &tables, original: scene, surroundings, files, xml, losses };
+    let mut writer = Writer { name, scene: &tables, original: scene, surroundings, files, xml: Xml::default(), losses };
     writer.all()?;
     let content = writer.xml.finish().into_bytes();
     Ok(WrittenScene { content, files: writer.files.into_files(), report: writer.losses.into_report() })

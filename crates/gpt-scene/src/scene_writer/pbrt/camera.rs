@@ -1,8 +1,10 @@
 //! The camera, the film, and how light is estimated.
 
+use glam::DVec2;
+
 use super::Writer;
 use super::directive::{Directive, transform, triple};
-use crate::scene::{Aperture, ApertureShape, Camera, Emitters, FilterKind, MaterialKind, Projection, SamplerKind};
+use crate::scene::{Aperture, ApertureShape, Camera, Emitters, FilterKind, MaterialKind, Projection, SamplerKind, Window};
 use crate::scene_writer::surroundings::has_media;
 
 /// The depth that stands for none.
@@ -48,38 +50,43 @@ impl Writer<'_> {
 
     /// The camera, with what is around it.
     pub fn camera(&mut self) {
-        let Camera { position, look_at, up, projection, shift, stretch, aperture, focus_distance, .. } = self.scene.camera;
+        let Camera { position, look_at, up, stretch, aperture, focus_distance, .. } = self.scene.camera;
         if !self.scene.exposure.is_empty() {
             self.drop("motion of the camera", "camera", "it rests");
         }
-        // +X is to the left there of what the camera sees.
-        let mirror = if stretch < 0.0 { 1.0 } else { -1.0 };
-        self.line(format!("Scale {mirror} 1 1"));
+        let size = DVec2::from(self.scene.film.size.map(f64::from));
+        let window = self.scene.camera.window(size);
+        match window {
+            // +X is to the left there of what the camera sees.
+            Some(_) => self.line(format!("Scale {} 1 1", if stretch < 0.0 { 1.0 } else { -1.0 })),
+            // The middle of a panorama lies towards -X there, and what is to the right of it towards -Z.
+            None => self.line("Rotate -90 0 1 0".to_owned()),
+        }
         self.line(format!("LookAt {}  {}  {}", triple(position), triple(look_at), triple(up)));
         if let Some(medium) = self.scene.camera_medium {
             let medium = self.media.get(medium).to_owned();
             self.push(Directive::new("MediumInterface", &["", &medium]));
         }
-        let [width, height] = self.scene.film.size.map(f64::from);
-        let half_height = match projection {
-            Projection::Perspective { .. } => 1.0,
-            Projection::Orthographic { height } => 0.5 * height,
+        let Some(Window { half_extent, shift, is_parallel }) = window else {
+            self.push(Directive::new("Camera", &["spherical"]).string("mapping", "equirectangular"));
+            return;
         };
-        let half_width = half_height * width / height * stretch.abs();
-        let [right, above] = [2.0 * half_width * shift[0] * -mirror, 2.0 * half_height * shift[1]];
-        let window = [right - half_width, right + half_width, above - half_height, above + half_height];
-        let camera = match projection {
-            // The angle is that from −1 to 1.
+        // The angle is that from -1 to 1.
+        let half_height = if is_parallel { half_extent.y } else { 1.0 };
+        let half_width = (half_height * half_extent.x / half_extent.y).abs();
+        let [right, above] = [2.0 * half_width * shift.x * stretch.signum(), 2.0 * half_height * shift.y];
+        let screen = [right - half_width, right + half_width, above - half_height, above + half_height];
+        let camera = match self.scene.camera.projection {
             Projection::Perspective { vertical_fov_degrees } => {
                 Directive::new("Camera", &["perspective"]).float("fov", vertical_fov_degrees)
             }
-            Projection::Orthographic { .. } => Directive::new("Camera", &["orthographic"]),
+            _ => Directive::new("Camera", &["orthographic"]),
         };
         let lens = aperture.filter(|aperture| aperture.radius > 0.0);
         if let Some(Aperture { shape: ApertureShape::Square | ApertureShape::Polygon { .. }, .. }) = lens {
             self.approximate("aperture that is no disk", "camera.aperture", "a disk of the same radius is taken");
         }
-        let camera = camera.floats("screenwindow", &window).some(lens, |camera, Aperture { radius, .. }| {
+        let camera = camera.floats("screenwindow", &screen).some(lens, |camera, Aperture { radius, .. }| {
             camera.float("lensradius", radius).float("focaldistance", focus_distance)
         });
         self.push(camera);

@@ -26,21 +26,25 @@ use std::path::Path;
 
 use self::directive::Directive;
 use self::made::{Made, Relief};
+use super::flat_camera::with_flat_camera;
 use super::losses::Losses;
 use super::surroundings::{Surroundings, with_media_below_surfaces};
 use super::written::WrittenScene;
 use crate::load::file::writer::{Names, SideFiles};
-use crate::scene::{Material, MaterialId, Scene};
+use crate::scene::{Material, MaterialId, Projection, Scene};
 
 /// A scene as one of pbrt-v4 that is to be written to `target`; meshes and pictures that it embeds lie in the folder `NAME.files` beside it. `name`
 /// is how reports call the scene.
 pub fn as_pbrt(scene: &Scene, name: &str, target: &Path) -> WrittenScene {
+    let mut losses = Losses::of(name);
+    let has = |projection: &Projection| matches!(projection, Projection::Equirectangular(model) if model.is_full());
+    let scene = &with_flat_camera(scene, &mut losses, has);
     let scene = &with_media_below_surfaces(scene);
     let bodies: Vec<String> = scene.materials.iter().map(|material| format!("body of {}", material.name)).collect();
     let mut writer = Writer {
         scene,
         target,
-        losses: Losses::of(name),
+        losses,
         files: SideFiles::beside(target),
         materials: Names::unique(scene.materials.iter().map(|material| material.name.as_str()), "material"),
         media: Names::unique(

@@ -156,7 +156,8 @@ impl Resolver<'_> {
         };
         let frames = self.frames(keyframes, fps, |key| (key.frame, key.time))?;
         let interpolation = interpolation.map_or(Interpolation::default(), |name| name.value.into());
-        let is_perspective = written.projection.as_ref().is_none_or(|name| name.value == ProjectionName::Perspective);
+        let no_name = if written.calibration.is_some() { ProjectionName::BrownConrady } else { ProjectionName::Perspective };
+        let projection = written.projection.as_ref().map_or(no_name, |name| name.value);
         let mut track = CameraTrack { node, ..CameraTrack::default() };
         for (entry, frame) in keyframes.value.iter().zip(frames) {
             let CameraKeyEntry { position, look_at, up, vfov, height, focus_distance, .. } = &entry.value;
@@ -175,8 +176,12 @@ impl Resolver<'_> {
                 Err(self.error(span, format!("only keyframes of {kind} cameras state `{key}`")))
             };
             match (vfov, height) {
-                (Some(vfov), _) if !is_perspective => return misplaced(&vfov.place, "vfov", "perspective"),
-                (_, Some(height)) if is_perspective => return misplaced(&height.place, "height", "orthographic"),
+                (Some(vfov), _) if projection != ProjectionName::Perspective => {
+                    return misplaced(&vfov.place, "vfov", "perspective");
+                }
+                (_, Some(height)) if projection != ProjectionName::Orthographic => {
+                    return misplaced(&height.place, "height", "orthographic");
+                }
                 _ => {}
             }
             let opening = vfov.as_ref().map(|vfov| vfov.value.0).or(height.as_ref().map(|height| height.value.0));

@@ -4,13 +4,14 @@ use glam::DVec3;
 
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::syntax::{ApertureEntry, CameraTable, ProjectionName};
+use crate::load::file::syntax::{ApertureEntry, CameraTable};
 use crate::load::file::value::vector;
-use crate::scene::validate::BLADES;
-use crate::scene::{Aperture, ApertureShape, Camera, Projection};
+use crate::scene::camera::BLADES;
+use crate::scene::{Aperture, ApertureShape, Camera, Stereo};
 
 impl Resolver<'_> {
-    pub(super) fn camera(&mut self, written: &CameraTable) -> Result<(), SceneError> {
+    /// `has_size`: the file states how many pixels its picture has.
+    pub(super) fn camera(&mut self, written: &CameraTable, has_size: bool) -> Result<(), SceneError> {
         let position = vector(written.position);
         let look_at = vector(written.look_at.value);
         let up = written.up.as_ref().map_or(DVec3::Y, |up| vector(up.value));
@@ -22,6 +23,7 @@ impl Resolver<'_> {
             let message = "`up` is zero or lies along the viewing direction, so which way is up is not known";
             return Err(self.error(span, message).with_help("choose an `up` that is not parallel to look_at - position"));
         }
+        let projection = self.projection(written, has_size)?;
         let aperture = self.aperture(written)?;
         let shutter = written.shutter.as_ref().map_or([0.0, 1.0], |shutter| shutter.value.map(|time| time.0));
         if let Some(written) = &written.shutter
@@ -36,39 +38,24 @@ impl Resolver<'_> {
             return Err(self.error(&written.place, format!("a stretch is from 1e-6 to 1e6, or that below 0, and not {stretch}")));
         }
         self.scene.camera_medium = written.medium.as_ref().map(|name| self.medium_id(name)).transpose()?;
+        let stereo = written.stereo.as_ref().map(|written| Stereo {
+            layout: written.value.layout.0,
+            eye_distance: written.value.eye_distance.0,
+            convergence: written.value.convergence.map(|distance| distance.0),
+        });
         self.scene.camera = Camera {
             position,
             look_at,
             up,
-            projection: self.projection(written)?,
-            shift: written.shift.map_or([0.0; 2], |shift| shift.map(|part| part.0)),
+            projection,
+            shift: written.shift.as_ref().map_or([0.0; 2], |shift| shift.value.map(|part| part.0)),
             stretch,
             aperture,
             focus_distance: written.focus_distance.map_or((look_at - position).length(), |distance| distance.0),
+            stereo,
             shutter,
         };
-        Ok(())
-    }
-
-    fn projection(&self, written: &CameraTable) -> Result<Projection, SceneError> {
-        let name = written.projection.as_ref().map_or(ProjectionName::Perspective, |name| name.value);
-        let missing = |key: &str| self.error(&written.look_at.place, format!("the camera needs the key `{key}`"));
-        match name {
-            ProjectionName::Perspective => {
-                if let Some(height) = &written.height {
-                    return Err(self.error(&height.place, "`height` belongs to projection = \"orthographic\""));
-                }
-                let vfov = written.vfov.as_ref().ok_or_else(|| missing("vfov"))?;
-                Ok(Projection::Perspective { vertical_fov_degrees: vfov.value.0 })
-            }
-            ProjectionName::Orthographic => {
-                if let Some(vfov) = &written.vfov {
-                    return Err(self.error(&vfov.place, "`vfov` belongs to projection = \"perspective\""));
-                }
-                let height = written.height.as_ref().ok_or_else(|| missing("height"))?;
-                Ok(Projection::Orthographic { height: height.value.0 })
-            }
-        }
+        self.check_model(written)
     }
 
     /// None for a pinhole: no aperture, or one of radius 0.

@@ -2,6 +2,7 @@
 
 mod animation;
 mod camera;
+mod camera_model;
 mod material;
 mod medium;
 mod mtl;
@@ -32,7 +33,7 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
     if resolver.note(media).is_none() {
         return resolver.finish();
     }
-    let camera = file.camera.as_ref().map_or(Ok(()), |camera| resolver.camera(camera));
+    let camera = file.camera.as_ref().map_or(Ok(()), |camera| resolver.camera(camera, file.film.size.is_some()));
     resolver.note(camera);
     let animation = resolver.animation(&file);
     if resolver.note(animation).is_none() {

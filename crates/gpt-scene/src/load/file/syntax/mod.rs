@@ -3,6 +3,8 @@
 //! A table whose shape depends on a key (`type` mostly) is an enum with one struct per value of that key; its name for serde is that key
 //! ([`super::reader`]).
 
+mod camera;
+mod choice_name;
 mod output;
 mod render;
 mod texture;
@@ -12,6 +14,7 @@ use std::num::NonZeroU32;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use camera::{ApertureEntry, CameraTable, ProjectionName, RoundAperture};
 pub use output::OutputTable;
 pub use render::RenderTable;
 pub use texture::{CheckerEntry, ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
@@ -19,14 +22,14 @@ pub use texture::{CheckerEntry, ColorSpaceEntry, CommonKeys, ImageEntry, Texture
 use super::document::FORMAT_VERSION;
 use super::import::ImportEntry;
 use super::instance::{GroupEntry, InstanceEntry};
-use super::keyframes::{AnimationTable, CameraKeyEntry, InterpolationName};
+use super::keyframes::AnimationTable;
 use super::light::LightEntry;
 use super::material::MaterialEntry;
 use super::medium::MediumEntry;
 use super::meter::MeterEntry;
 use super::node::NodeEntry;
 use super::shape::ShapeEntry;
-use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
+use super::value::{Checked, Exactly, FilterRadius, Located};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -97,83 +100,4 @@ pub enum FilterEntry {
 pub struct FilterKeys {
     /// Half the filter's width in pixels; 0.5 for a box, 1 for a tent, 1.5 for gaussian and 2 for blackman_harris when left out.
     pub radius: Option<Checked<FilterRadius>>,
-}
-
-/// The camera, from which the picture is taken.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(extend("dependentRequired" = { "aperture": ["focus_distance"], "interpolation": ["keyframes"] }, "allOf" = [{ "oneOf": [
-    { "required": ["vfov"], "not": { "required": ["height"] }, "properties": { "projection": { "const": "perspective" } } },
-    { "required": ["height", "projection"], "not": { "required": ["vfov"] }, "properties": { "projection": { "const": "orthographic" } } },
-] }]))]
-pub struct CameraTable {
-    pub position: Vector,
-    /// The camera looks along `look_at - position`.
-    pub look_at: Located<Vector>,
-    /// [0, 1, 0] when left out.
-    pub up: Option<Located<Vector>>,
-    /// Vertical field of view in degrees; with `projection = "perspective"`.
-    pub vfov: Option<Located<Checked<FieldOfView>>>,
-    /// "perspective" when left out.
-    pub projection: Option<Located<ProjectionName>>,
-    /// Height of the window in scene units; with `projection = "orthographic"`.
-    pub height: Option<Located<Checked<Positive>>>,
-    /// How far the picture's middle lies to the right of the camera's axis and above it, in widths and heights of the picture; [0, 0] when left
-    /// out.
-    pub shift: Option<Exactly<Number, 2>>,
-    /// Factor of what the picture shows from side to side, 1 when left out: at 2 all is half as wide as it should be. Below 0, left and right are
-    /// exchanged, so that -1 is a mirror's picture.
-    pub stretch: Option<Located<Number>>,
-    /// The lens opening; a pinhole when left out.
-    pub aperture: Option<Located<ApertureEntry>>,
-    /// Distance along the viewing direction of the plane in focus; needed with an aperture.
-    pub focus_distance: Option<Checked<Positive>>,
-    /// Times at which the shutter opens and closes, [0, 1] when left out. Where there are keyframes they count in frames from the frame itself: 1 is
-    /// the next frame.
-    pub shutter: Option<Located<Exactly<Number, 2>>>,
-    /// The camera at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
-    #[schemars(extend("minItems" = 1))]
-    pub keyframes: Option<Located<Vec<Located<CameraKeyEntry>>>>,
-    /// How keyframes lead from one to the next; "linear" when left out.
-    pub interpolation: Option<Located<InterpolationName>>,
-    /// A `[[node]]` that takes the camera along at frames.
-    pub node: Option<Located<String>>,
-    /// A `[[medium]]` that the camera is within; where no surface with that `interior` is around the camera, it is everywhere.
-    pub medium: Option<Located<String>>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ProjectionName {
-    Perspective,
-    Orthographic,
-}
-
-/// The opening of a thin lens.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(rename = "key:shape", rename_all = "snake_case")]
-#[schemars(tag = "shape", rename = "ApertureEntry")]
-pub enum ApertureEntry {
-    Disk(RoundAperture),
-    Square(RoundAperture),
-    Polygon(PolygonAperture),
-}
-
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-pub struct RoundAperture {
-    /// Radius of a disk, half the side of a square.
-    pub radius: Checked<NonNegative>,
-}
-
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-pub struct PolygonAperture {
-    /// Radius of the circle through the corners.
-    pub radius: Checked<NonNegative>,
-    /// Number of corners, at least 3; 6 when left out.
-    #[schemars(extend("minimum" = 3, "maximum" = 64))]
-    pub blades: Option<Located<u32>>,
-    /// Degrees, 0 when left out.
-    pub rotation: Option<Number>,
 }

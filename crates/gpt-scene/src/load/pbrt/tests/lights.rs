@@ -13,6 +13,7 @@ fn vertical(scene: &Scene) -> f64 {
     match scene.camera.projection {
         Projection::Perspective { vertical_fov_degrees } => vertical_fov_degrees,
         Projection::Orthographic { height } => height,
+        other => panic!("a window, and not {}", other.name()),
     }
 }
 

@@ -128,6 +128,16 @@ fn cameras_come_back() {
     let mut shifted = perspective;
     shifted.camera.shift = [0.25, 0.0];
     assert_eq!(round_trip(&shifted).lost, ["shift of the camera's window"]);
+    // A calibrated camera is a perspective one there; a panorama cannot be said.
+    let half = (0.5 * 40_f64.to_radians()).tan();
+    let focal = 0.5 * 256.0 / half;
+    let lens = format!("projection = \"brown_conrady\"\nfocal = [{focal}, {focal}]\n");
+    let calibrated = load_toml_str(&(HEAD.replace("vfov = 40\n", &lens) + &square + POINT), "test.toml", Path::new("")).unwrap();
+    let trip = round_trip(&calibrated);
+    assert!(trip.lost.is_empty() && close(&trip.read, &scene(&format!("{square}{POINT}"))), "{:?}", trip.read.camera);
+    let around = HEAD.replace("vfov = 40\n", "projection = \"cylindrical\"\n") + &square + POINT;
+    let around = load_toml_str(&around, "test.toml", Path::new("")).unwrap();
+    assert_eq!(round_trip(&around).lost, ["projection cylindrical"]);
 }
 
 #[test]

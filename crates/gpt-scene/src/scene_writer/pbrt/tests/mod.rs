@@ -5,14 +5,15 @@ mod parser;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
 use tempfile::tempdir;
 
 use self::parser::{Statement, check_scene, parse};
 use super::as_pbrt;
 use crate::load::file::{example_materials, light_examples, material_examples, shape_examples};
 use crate::load::{builtin_names, load, load_toml_str};
-use crate::scene::{GridsOfMedium, ImportReport, MediumGrids, Scene, Volume, VoxelGrid};
+use crate::scene::camera::model::CameraModel;
+use crate::scene::{Equirectangular, GridsOfMedium, ImportReport, MediumGrids, Projection, Scene, ViewPlace, Volume, VoxelGrid};
 use crate::scene_writer::WrittenScene;
 
 const HEAD: &str =
@@ -120,6 +121,62 @@ fn settings_are_those_of_the_scene() {
     assert_eq!(find(&statements, "Scale", "").numbers, [1.0, 1.0, 1.0]);
     let window = find(&statements, "Camera", "perspective").numbers_of("screenwindow");
     assert_eq!(window, [-1.5 - 3.0, -1.5 + 3.0, 0.0, 2.0]);
+}
+
+/// pbrt-v4's spherical camera (cameras.cpp) looks along (sin θ cos φ, cos θ, sin θ sin φ), φ = 2πu, θ = πv, in the space that Rotate and LookAt lead to.
+#[test]
+fn panoramas_look_where_they_do_here() {
+    let mut scene = scene(&format!("{RED}{POINT}"));
+    scene.camera.look_at = DVec3::new(1.0, 0.5, -2.0);
+    let model = Equirectangular::default();
+    scene.camera.projection = Projection::Equirectangular(model);
+    let (statements, report, _) = written(&scene);
+    assert_eq!(reported(&report), Vec::<String>::new());
+    assert_eq!(find(&statements, "Camera", "spherical").text_of("mapping"), Some("equirectangular"));
+    let [degrees, axis @ ..] = &find(&statements, "Rotate", "").numbers[..] else { panic!("four numbers") };
+    assert_eq!(axis, [0.0, 1.0, 0.0]);
+    let numbers = &find(&statements, "LookAt", "").numbers;
+    let [eye, target, up] = [0, 3, 6].map(|at| DVec3::from_slice(&numbers[at..at + 3]));
+    let forward = (target - eye).normalize();
+    let side = up.cross(forward).normalize();
+    let of_world = DMat3::from_cols(side, forward.cross(side), forward).transpose();
+    // Points go from the world to the camera: first LookAt, then Rotate.
+    let to_camera = |degrees: f64| DMat3::from_rotation_y(degrees.to_radians()) * of_world;
+    let [right, above, backward] = scene.camera.frame();
+    let off = |degrees: f64| {
+        let places = [[0.5, 0.5], [0.3, 0.2], [0.9, 0.7], [0.05, 0.4]].map(DVec2::from_array);
+        let differences = places.map(|at| {
+            let (phi, theta) = (std::f64::consts::TAU * at.x, std::f64::consts::PI * at.y);
+            let theirs = DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
+            let here = model.direction(&ViewPlace { tile: 0, at, size: DVec2::ONE }).expect("all is seen");
+            (to_camera(degrees).transpose() * theirs).distance(right * here.x + above * here.y + backward * here.z)
+        });
+        differences.into_iter().fold(0.0, f64::max)
+    };
+    assert!(off(*degrees) < 1e-9, "{}", off(*degrees));
+    assert!(off(-degrees) > 1.0 && off(0.0) > 1.0, "the control");
+}
+
+/// Cameras that pbrt has not are reported, and those that it has under another name are not.
+#[test]
+fn what_cameras_lose_is_reported() {
+    let lost = |keys: &str| {
+        let head = HEAD.replace("vfov = 40\n", keys);
+        let scene =
+            load_toml_str(&format!("{head}{RED}{POINT}"), "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
+        let (statements, report, _) = written(&scene);
+        (reported(&report), find(&statements, "Film", "rgb").numbers_of("xresolution")[0])
+    };
+    let lens = "projection = \"brown_conrady\"\nfocal = [30, 30]\nprincipal_point = [22, 9]\n";
+    assert_eq!(lost(lens), (vec![], 40.0));
+    assert_eq!(lost(&format!("{lens}radial = [-0.1]\n")), (vec!["distortion of the lens".to_owned()], 40.0));
+    assert_eq!(lost("projection = \"fisheye\"\nfov = 180\n"), (vec!["projection fisheye".to_owned()], 40.0));
+    assert_eq!(
+        lost("projection = \"equirectangular\"\nazimuth = [0, 90]\n"),
+        (vec!["projection equirectangular".to_owned()], 40.0)
+    );
+    let stereo = "vfov = 40\nstereo = { layout = \"side_by_side\", eye_distance = 0.1 }\n";
+    assert_eq!(lost(stereo), (vec!["stereo side_by_side".to_owned()], 20.0));
 }
 
 #[test]
