@@ -8,7 +8,7 @@ shift 5
 first=$((spp * index / chunks))
 end=$((spp * (index + 1) / chunks))
 gpt=${GPT:-gpt}
-"$gpt" render "$scene" --first-sample "$first" --spp $((end - first)) --resume -o "${picture%.exr}.part-$index.exr" "$@" &
+"$gpt" render "$scene" --first-sample "$first" --spp $((end - first)) --expected-spp "$spp" --resume -o "${picture%.exr}.part-$index.exr" "$@" &
 child=$!
 # A signal that asks for an end goes on to gpt, which saves what it has.
 trap 'kill -TERM "$child" 2>/dev/null || true' TERM INT

@@ -2,6 +2,7 @@
 
 use crate::cpu::ReferenceRenderer;
 use crate::gpu::{GpuRenderer, OpeningDevice, list_devices};
+use crate::learn::{Effort, Pace};
 use crate::plan::PlanOptions;
 use crate::renderer::{DeviceChoice, RenderError, Renderer};
 use crate::scene::Scene;
@@ -66,7 +67,8 @@ fn no_adapter_notice(why: &str) -> String {
 }
 
 fn on_the_cpu(scene: &Scene, options: &PlanOptions) -> Result<Box<dyn Renderer>, RenderError> {
-    let renderer = ReferenceRenderer::of_layer(scene, options.layer)?;
+    let effort = Effort { pace: Pace::Processor, time_limit: options.time_limit };
+    let renderer = ReferenceRenderer::of_length(scene, options.layer, effort)?;
     Ok(Box::new(match options.most_film_pixels {
         Some(pixels) => renderer.with_film_pixels(pixels),
         None => renderer,

@@ -55,6 +55,15 @@
 //! # Ok::<(), gpt::Error>(())
 //! ```
 //!
+//! | to | take |
+//! | --- | --- |
+//! | read a scene, or make one of text | [`Scene::load`], [`Scene::from_toml`] |
+//! | render it whole | [`Render::render`] with [`RenderOptions`] |
+//! | render row by row, with progress, or again and again | [`Renderer`] and an [`Observer`] |
+//! | end at a time, an error, or an interval for the truth | [`RenderOptions`], [`IntervalOptions`]; [`Outcome`] says what ended it |
+//! | read, hold, write and compare pictures | [`Image`], [`compare()`] |
+//! | test a device | [`verify()`] |
+//!
 //! # Features
 //!
 //! `cli`, on by default, is the program `gpt`. A crate that wants the library alone turns it off: `default-features = false`.

@@ -100,7 +100,7 @@ const TEST_EXAMPLES: &str = "Examples:
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, the name of a built-in scene, or - for a .toml scene on the standard input [default: cornell]
+    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, a .pbrt, the name of a built-in scene, or - for a .toml scene on the standard input [default: cornell]
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
@@ -292,7 +292,7 @@ pub struct CompareArguments {
 
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, or the name of a built-in scene [default: closed forms and every built-in scene]
+    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, a .pbrt, or the name of a built-in scene [default: closed forms and every built-in scene]
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
@@ -337,7 +337,7 @@ pub struct VerifyArguments {
 
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, the name of a built-in scene, or - for a .toml scene on the standard input
+    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, a .pbrt, the name of a built-in scene, or - for a .toml scene on the standard input
     #[arg(required_unless_present = "schema")]
     pub scene: Option<OsString>,
     #[command(flatten)]
@@ -362,7 +362,7 @@ pub struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub struct ImportArguments {
-    /// A glTF .gltf or .glb, a Mitsuba .xml, or a model, .obj or .ply
+    /// A glTF .gltf or .glb, a Mitsuba .xml, a .pbrt, or a model, .obj or .ply
     pub scene: PathBuf,
     /// Scene file to write; what the scene embeds goes into a folder beside it
     #[arg(short, long, value_name = "SCENE.toml")]

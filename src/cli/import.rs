@@ -17,7 +17,7 @@ pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
     let options = arguments.access.options(arguments.strict);
     let source = SceneSource::parse(Some(arguments.scene.as_os_str()))?;
     if !matches!(source, SceneSource::Import(_) | SceneSource::Model(_)) {
-        let message = "cannot be imported: it is neither glTF (.gltf, .glb) nor a Mitsuba scene (.xml) nor a model (.obj, .ply)";
+        let message = "cannot be imported: it is neither glTF (.gltf, .glb) nor a scene of Mitsuba (.xml) or pbrt (.pbrt) nor a model (.obj, .ply)";
         return Err(SceneError::in_file(arguments.scene.display(), message).into());
     }
     // A model becomes the scene that `gpt render` makes: framed, with a ground and a light.

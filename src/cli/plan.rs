@@ -9,6 +9,7 @@ use gpt::load::{self, LoadOptions, ModelView, SceneSource};
 use gpt::merge::chunks;
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::render::options::PARTS_OF_STRATA;
+use gpt::scene::NumberOrAuto;
 use serde::Serialize;
 
 use super::arguments::PlanArguments;
@@ -200,7 +201,13 @@ fn plan_samples((arguments, typed): (&PlanArguments, &Typed), scene: &Scene) -> 
             let (index, count) = (index as u32, samples.len() as u32);
             let output = part(index);
             let command = render_command(arguments, typed).with_option("--first-sample", samples.start.to_string());
-            let command = command.with_option("--spp", count.to_string()).with_flag("--resume").with_option("-o", &output);
+            let command = command.with_option("--spp", count.to_string());
+            // All chunks learn as the whole picture does.
+            let command = match scene.render.expected_spp {
+                NumberOrAuto::Auto => command.with_option("--expected-spp", spp.to_string()),
+                NumberOrAuto::Number(_) => command,
+            };
+            let command = command.with_flag("--resume").with_option("-o", &output);
             Ok(Chunk {
                 index,
                 frames: None,

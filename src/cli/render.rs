@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gpt::denoise::library::Library;
-use gpt::learn::trial;
+use gpt::learn::{self, Effort, Pace};
 use gpt::load::{self, FileLog, LoadOptions, SceneSource};
 use gpt::output::{PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
 use gpt::plan::host::{HostNeeds, host_memory};
@@ -132,7 +132,8 @@ fn scene(
     let options = &intervals::asked_for(arguments, (&mut scene, &layers), options)?;
     let times = frames.times(&scene.animation)?;
     // All frames draw from lights in the same way, whichever of them are rendered.
-    let scene = if times == [FrameTime::Rest] { scene } else { trial::choose(&scene)?.scene.into_owned() };
+    let effort = Effort { pace: Pace::Processor, time_limit: options.time_limit };
+    let scene = if times == [FrameTime::Rest] { scene } else { learn::with_lights_settled(&scene, effort)? };
     if times == [FrameTime::Rest] && !arguments.quiet {
         tell_of_keyframes(&scene);
     }

@@ -42,6 +42,16 @@ pub struct IntervalGoal {
 }
 
 /// The intervals that are asked for, and how narrow they are to become.
+///
+/// ```no_run
+/// use gpt::Render;
+///
+/// let interval = gpt::IntervalOptions { target: Some(0.01), confidence: 0.99, ..Default::default() };
+/// let options = gpt::RenderOptions { interval: Some(interval), samples: Some(1 << 20), ..Default::default() };
+/// let image = gpt::Scene::load("cornell")?.render(&options)?;
+/// println!("{:?}", image.outcome().and_then(|outcome| outcome.interval.as_ref()));
+/// # Ok::<(), gpt::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IntervalOptions {
     /// The render ends once half the width of each interval is at most this share of its value, or of a tenth of the picture's where that is more. None:

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::clamp::Clamp;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use crate::film::{KernelLayer, MOST_FILM_PIXELS};
-use crate::learn::{self, Reasons, Settled};
+use crate::learn::{self, Effort, Reasons, Settled};
 use crate::reference::coverage::FirstOwners;
 use crate::reference::integrator::Integrator;
 use crate::reference::intersect::Ray;
@@ -37,6 +37,8 @@ pub struct ReferenceRenderer {
     layer: Option<KernelLayer>,
     /// Most pixels whose samples go together: [`MOST_FILM_PIXELS`] but for tests.
     pixels_in_memory: u64,
+    /// The render's length, by which it learns.
+    effort: Effort,
     /// Why settings are what they are that the scene leaves open.
     because: Reasons,
     /// Paths were traced before the first sample to learn about the scene.
@@ -103,11 +105,17 @@ impl ReferenceRenderer {
     /// [`ReferenceRenderer::new`] to make a layer in place of the picture, of a scene that is [made
     /// ready](crate::reference::layer::layer_scene) for it.
     pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>) -> Result<Self, RenderError> {
+        Self::of_length(scene, layer, Effort::default())
+    }
+
+    /// [`ReferenceRenderer::of_layer`] for a render of this length, by which it learns.
+    pub fn of_length(scene: &Scene, layer: Option<KernelLayer>, effort: Effort) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let Settled { scene, because, depends_on_view, integrator, .. } = learn::settle(scene)?;
+        let Settled { scene, because, depends_on_view, integrator, .. } = learn::settle(scene, effort)?;
         Ok(Self {
             integrator: integrator.map_or_else(|| Integrator::new(&scene), Ok)?,
             layer,
+            effort,
             because,
             depends_on_view,
             pixels_in_memory: MOST_FILM_PIXELS,
@@ -390,9 +398,9 @@ impl Renderer for ReferenceRenderer {
             self.build_seconds = start.elapsed().as_secs_f64();
             return Ok(self);
         }
-        let layer = self.layer;
+        let (layer, effort) = (self.layer, self.effort);
         drop(self);
-        Ok(Box::new(Self::of_layer(scene, layer)?))
+        Ok(Box::new(Self::of_length(scene, layer, effort)?))
     }
 
     fn holds_whole_film(&self) -> bool {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::binary_tree::parts::KeptTrees;
-use crate::learn::{self, Settled};
+use crate::learn::{self, Effort, Pace, Settled};
 use crate::packed::hierarchy::Traversal;
 use crate::packed::{PackError, PackedScene};
 use crate::plan::{DeviceLimits, PlanOptions};
@@ -33,7 +33,7 @@ impl<'a> Fitting<'a> {
         kept: &mut KeptTrees,
     ) -> Result<Self, RenderError> {
         let traversal = options.packed_traversal(scene, limits);
-        let mut settled = learn::settle(scene)?;
+        let mut settled = learn::settle(scene, effort(limits, options))?;
         // The scene is not to be in memory in both forms.
         settled.integrator = None;
         let packed = pack(&settled, traversal, kept)?;
@@ -55,6 +55,12 @@ impl<'a> Fitting<'a> {
         self.packed = pack(&self.settled, self.traversal, kept)?;
         Ok(true)
     }
+}
+
+/// The length of a render with these options on a device with these limits; a device that is not known is taken for a slow one.
+pub fn effort(limits: Option<&DeviceLimits>, options: &PlanOptions) -> Effort {
+    let is_card = limits.is_some_and(|limits| !limits.software);
+    Effort { pace: if is_card { Pace::Card } else { Pace::Processor }, time_limit: options.time_limit }
 }
 
 /// Packs a scene with what was learned about it.

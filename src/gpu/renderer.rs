@@ -10,13 +10,14 @@ use super::band::{BandProgress, BatchContext};
 use super::buffers::STATISTICS_BYTES;
 use super::device::{Device, OpeningDevice};
 use super::film::{self, Reached, deliver_band};
-use super::fitting::Fitting;
+use super::fitting::{self, Fitting};
 use super::passes::{PassLimits, PassSizer};
 use super::pipeline::Pipeline;
 use super::profile::{self, Profile};
 use super::trace::{self, GpuPathTrace};
 use crate::binary_tree::parts::KeptTrees;
 use crate::film::Band;
+use crate::learn::{self, Effort};
 use crate::packed::PackedScene;
 use crate::packed::environment::PackedEnvironment;
 use crate::packed::hierarchy::Traversal;
@@ -75,7 +76,9 @@ impl GpuRenderer {
         mut trees: KeptTrees,
     ) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let opening = if options.waits_for_device() { OpeningDevice::already_open(&opening.wait()?) } else { opening };
+        // How much is learned depends on the device.
+        let waits = options.waits_for_device() || learn::may_learn(scene);
+        let opening = if waits { OpeningDevice::already_open(&opening.wait()?) } else { opening };
         let fitting = Fitting::new(scene, opening.limits(), options, &mut trees);
         // Without a device, that is the error, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
@@ -149,6 +152,11 @@ impl GpuRenderer {
     /// The plan for this scene on this device.
     pub fn plan(&self) -> &Plan {
         &self.pipeline.plan
+    }
+
+    /// The length of its renders, by which it learned about the scene.
+    pub fn effort(&self) -> Effort {
+        fitting::effort(Some(&self.pipeline.device.limits), &self.options)
     }
 
     /// The time that each stage of a pass takes; None where the device has no time stamps. The film

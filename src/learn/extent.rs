@@ -1,9 +1,7 @@
 //! Scenes that are worth learning about.
 
-use crate::scene::{Scene, SceneSummary};
+use crate::scene::{Guiding, Scene, SceneSummary};
 
-/// Pixels of a film below which learning takes longer than it saves.
-const FEWEST_PIXELS: u64 = 1 << 16;
 /// Triangles above which the reference's hierarchy, which learning needs, takes seconds to build.
 const MOST_TRIANGLES: usize = 1 << 20;
 
@@ -12,13 +10,23 @@ pub fn pixel_count(scene: &Scene) -> u64 {
     scene.film.size.map(u64::from).iter().product()
 }
 
-/// Says that the film has too few pixels to learn for.
-pub fn has_few_pixels(scene: &Scene) -> bool {
-    pixel_count(scene) < FEWEST_PIXELS
+/// Triangles of the scene, a group's once however often it stands there.
+pub fn triangle_count(scene: &Scene) -> usize {
+    let SceneSummary { triangles, group_triangles, .. } = SceneSummary::of(scene);
+    triangles + group_triangles
 }
 
 /// Says that the scene has too many triangles to learn from.
 pub fn has_many_triangles(scene: &Scene) -> bool {
-    let SceneSummary { triangles, group_triangles, .. } = SceneSummary::of(scene);
-    triangles + group_triangles > MOST_TRIANGLES
+    triangle_count(scene) > MOST_TRIANGLES
+}
+
+/// Says that light depends on where paths go on: paths of one edge scatter nowhere.
+pub fn paths_scatter(scene: &Scene) -> bool {
+    scene.render.max_depth != 1
+}
+
+/// Says that a guide is to be learned if it pays, and that it may.
+pub fn guide_may_pay(scene: &Scene) -> bool {
+    scene.render.guiding == Guiding::Auto && paths_scatter(scene) && !has_many_triangles(scene)
 }

@@ -3,15 +3,17 @@
 //! Training paths have random numbers of their own, so the picture's samples do not depend on them and are
 //! unbiased whatever was learned. They are traced in rounds, each twice as large as the one before and guided
 //! by what that one found, because light that is hard to find is found sooner so. The last two rounds make
-//! the guide. Their number is fixed and their results are put together in order, so the guide depends on the
-//! scene and its settings alone: every device, every part of a picture and every render that goes on has the
-//! same.
+//! the guide. How many paths they have is a matter of the settings and, where a guide has to pay, of the render's
+//! length ([`super::budget`]); their results are put together in order. So the guide does not depend on the seed,
+//! on threads or on how a device rounds.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::budget::{Budget, TOO_SHORT};
+use super::extent::{has_many_triangles, paths_scatter, pixel_count};
 use super::paths::{MOST_VERTICES, follow, pixel_of};
 use super::trial;
 use super::work_of_path;
@@ -38,6 +40,14 @@ const MOST_LOSS: f64 = 0.8;
 const PATHS_OF_PIXEL: u32 = 8;
 const FEWEST_PATHS: u32 = 1 << 14;
 const MOST_PATHS: u32 = 1 << 19;
+/// Paths that learning and trial runs together have at least, where a guide has to pay: fewer teach too little.
+const LEAST_BUDGET: f64 = 65_536.0;
+/// Share of these that trial runs take.
+const SHARE_OF_TRIALS: f64 = 0.4;
+/// Paths of a trial run for each pixel that it tries, with those that look at what is in view.
+const PATHS_OF_TRIED_PIXEL: f64 = 96.0;
+/// Pixels of a trial run: fewer tell too little, and more tell nothing new.
+const TRIED_PIXELS: [f64; 2] = [64.0, 1024.0];
 /// Work of all rounds at most: a guide may be asked to learn for minutes, and does where paths take what they
 /// usually do.
 const MOST_WORK: f64 = 600.0 * work::SECOND as f64;
@@ -59,22 +69,30 @@ pub struct Learned {
     pub because: Option<String>,
 }
 
-/// Learns a guide for the scene of an integrator, and leaves it there, if the scene's settings want one.
-pub fn train(integrator: &mut Integrator) -> Learned {
-    let guiding = integrator.scene().render.guiding;
-    if guiding == Guiding::Off {
-        return Learned::default();
-    }
+/// Why no guide is learned, with the reason where guiding was not turned off; None where it is learned.
+pub fn why_none(scene: &Scene, budget: Budget) -> Option<Option<String>> {
+    let has_to_pay = scene.render.guiding == Guiding::Auto;
+    let because = match scene.render.guiding {
+        Guiding::Off => return Some(None),
+        _ if !paths_scatter(scene) => "paths have no bounce that light depends on",
+        _ if has_to_pay && has_many_triangles(scene) => "learning takes too long for so many triangles",
+        _ if has_to_pay && budget.most_paths() < LEAST_BUDGET => TOO_SHORT,
+        _ => return None,
+    };
+    Some(Some(because.to_owned()))
+}
+
+/// Learns a guide for the scene of an integrator, and leaves it there. There has to be no reason against it
+/// ([`why_none`]).
+pub fn train(integrator: &mut Integrator, budget: Budget) -> Learned {
     let not_at_all = |because: String| Learned { guide: None, because: Some(because) };
-    if !can_gain(integrator.scene()) {
-        return not_at_all("paths have no bounce that light depends on".to_owned());
-    }
-    let has_to_pay = guiding == Guiding::Auto;
-    if let Some(because) = trial::why_no_guide(integrator.scene()).filter(|_| has_to_pay) {
-        return not_at_all(because.to_owned());
-    }
+    let has_to_pay = integrator.scene().render.guiding == Guiding::Auto;
     let of_path = work_of_path::of_path(integrator);
-    let Some(rounds) = affordable(rounds(integrator.scene()), of_path, has_to_pay) else {
+    let budget = has_to_pay.then(|| budget.paths(of_path));
+    if budget.is_some_and(|paths| paths < LEAST_BUDGET) {
+        return not_at_all(TOO_SHORT.to_owned());
+    }
+    let Some(rounds) = affordable(rounds(integrator.scene(), budget), of_path, has_to_pay) else {
         return not_at_all(trial::too_much_work("learning", of_path));
     };
     let Trained { guide, paths, loss } = trained(integrator, rounds, has_to_pay);
@@ -89,22 +107,33 @@ pub fn train(integrator: &mut Integrator) -> Learned {
     Learned { guide, because: Some(because) }
 }
 
-/// Paths of one edge scatter nowhere.
-fn can_gain(scene: &Scene) -> bool {
-    scene.render.max_depth != 1
-}
-
-/// Paths of each round, as whole tasks.
-fn rounds(scene: &Scene) -> [u32; ROUNDS] {
-    let [width, height] = scene.film.size;
+/// Paths of each round, as whole tasks; all of them within the budget, where there is one.
+fn rounds(scene: &Scene, budget: Option<f64>) -> [u32; ROUNDS] {
     let last = match scene.render.guiding_paths {
         NumberOrAuto::Number(paths) => paths,
         NumberOrAuto::Auto => {
-            let of_pixels = width.saturating_mul(height).saturating_mul(PATHS_OF_PIXEL);
-            of_pixels.clamp(FEWEST_PATHS, MOST_PATHS).next_power_of_two()
+            let of_pixels = pixel_count(scene).saturating_mul(u64::from(PATHS_OF_PIXEL));
+            let of_pixels = of_pixels.clamp(u64::from(FEWEST_PATHS), u64::from(MOST_PATHS)).next_power_of_two() as u32;
+            budget.map_or(of_pixels, |paths| of_pixels.min(last_round(paths)))
         }
     };
     std::array::from_fn(|round| (last >> (ROUNDS - 1 - round)).next_multiple_of(PATHS_AT_ONCE))
+}
+
+/// Paths of the last round where all rounds and trial runs take so many: a power of two.
+fn last_round(paths: f64) -> u32 {
+    // Each round has half as many as the next, so all have less than twice as many as the last.
+    let last = ((1.0 - SHARE_OF_TRIALS) * 0.5 * paths) as u32;
+    1 << last.max(1).ilog2()
+}
+
+/// Pixels that each trial run tries, beside rounds of so many paths.
+fn pixels_of_trial(scene: &Scene, rounds: &[u32; ROUNDS]) -> u32 {
+    let of_rounds = f64::from(rounds.iter().sum::<u32>());
+    let of_trials = of_rounds * SHARE_OF_TRIALS / (1.0 - SHARE_OF_TRIALS);
+    let [fewest, most] = TRIED_PIXELS;
+    let pixels = of_trials / (MOST_LOSSES.len() as f64 * PATHS_OF_TRIED_PIXEL);
+    pixels.clamp(fewest, most).min(pixel_count(scene) as f64) as u32
 }
 
 /// The rounds, or smaller ones where paths take so much work that all would take longer than a person waits.
@@ -129,6 +158,7 @@ struct Trained {
 }
 
 fn trained(integrator: &mut Integrator, rounds: [u32; ROUNDS], has_to_pay: bool) -> Trained {
+    let pixels = pixels_of_trial(integrator.scene(), &rounds);
     let mut trained = Trained { guide: None, paths: 0, loss: None };
     let mut first = 0;
     let mut before: (Vec<Arrival>, u32) = Default::default();
@@ -141,7 +171,7 @@ fn trained(integrator: &mut Integrator, rounds: [u32; ROUNDS], has_to_pay: bool)
         integrator.set_guide(trained.guide.clone());
         let look = MOST_LOSSES.iter().find(|(rounds, _)| has_to_pay && trained.guide.is_some() && *rounds == round + 1);
         if let Some((_, most)) = look {
-            let loss = trial::loss_with_guide(integrator);
+            let loss = trial::loss_with_guide(integrator, pixels);
             trained.loss = Some(loss);
             if loss > *most {
                 break;

@@ -16,7 +16,8 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::extent::{has_few_pixels, has_many_triangles, pixel_count};
+use super::budget::{Budget, LEAST_BUDGET};
+use super::extent::{has_many_triangles, pixel_count};
 use super::paths::{follow, pixel_of};
 use super::work_of_path;
 use crate::reference::bsdf::{BsdfSample, Density};
@@ -82,12 +83,12 @@ pub struct LightsSettled<'a> {
 ///
 /// # Errors
 /// [`RenderError`] for a scene that the reference cannot render.
-pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
+pub fn settle(scene: &Scene, budget: Budget) -> Result<LightsSettled<'_>, RenderError> {
     let is_open = scene.render.light_choice == LightChoice::Auto;
     let with = |light_choice| Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
     let as_it_is = LightsSettled { scene: Cow::Borrowed(scene), integrator: None, because: None, is_undecided: false };
     let wanted = is_open || scene.render.light_choice == LightChoice::Cells;
-    if !wanted || !is_sampled(scene) || most_lights(scene) < 2 || (is_open && !is_worth_learning(scene)) {
+    if !wanted || !is_sampled(scene) || most_lights(scene) < 2 || (is_open && !is_worth_learning(scene, budget)) {
         return Ok(as_it_is);
     }
     let by_cells = if is_open { Cow::Owned(with(LightChoice::Cells)) } else { Cow::Borrowed(scene) };
@@ -151,8 +152,8 @@ fn is_sampled(scene: &Scene) -> bool {
     scene.render.estimator != Estimator::Bsdf && scene.render.max_depth != 1
 }
 
-fn is_worth_learning(scene: &Scene) -> bool {
-    !has_few_pixels(scene) && !has_many_triangles(scene)
+fn is_worth_learning(scene: &Scene, budget: Budget) -> bool {
+    budget.most_paths() >= LEAST_BUDGET && !has_many_triangles(scene)
 }
 
 /// A point of a surface at which light may be sampled.

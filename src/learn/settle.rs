@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::budget::{Budget, Effort, LEAST_BUDGET};
 use super::reasons::Reasons;
 use super::trial::{self, Chosen};
 use super::{guide, guide::Learned, openness};
@@ -10,7 +11,7 @@ use crate::reference::Integrator;
 use crate::renderer::RenderError;
 use crate::sampling::light_strategy::MANY_LIGHTS;
 use crate::sampling::{Guide, LightCells};
-use crate::scene::{Guiding, LightChoice, Scene};
+use crate::scene::{LightChoice, Scene};
 
 /// A scene with complete settings, and what was learned about it.
 pub struct Settled<'a> {
@@ -30,30 +31,49 @@ pub struct Settled<'a> {
     chose_cells: bool,
 }
 
-/// Chooses what the scene's settings leave open, and learns what its paths are to know.
+/// Chooses what the scene's settings leave open, and learns what its paths are to know, as far as the render is
+/// long enough for it.
 ///
 /// # Errors
 /// [`RenderError`] for a scene that is not valid or that the reference cannot render.
-pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
+pub fn settle(scene: &Scene, effort: Effort) -> Result<Settled<'_>, RenderError> {
     scene.validate()?;
     match openness::baked(scene)? {
-        None => settle_baked(scene),
-        Some(baked) => settle_baked(&baked).map(Settled::into_owned),
+        None => settle_baked(scene, effort),
+        Some(baked) => settle_baked(&baked, effort).map(Settled::into_owned),
     }
 }
 
+/// The scene with all that it leaves open of how lights are drawn from, so that its frames draw from them alike.
+///
+/// # Errors
+/// [`RenderError`] for a scene that the reference cannot render.
+pub fn with_lights_settled(scene: &Scene, effort: Effort) -> Result<Scene, RenderError> {
+    Ok(trial::choose(scene, Budget::new(scene, effort))?.scene.into_owned())
+}
+
+/// True where the render may be long enough to learn for, so that it matters how fast its device is.
+pub fn may_learn(scene: &Scene) -> bool {
+    Budget::new(scene, Effort::default()).most_paths() >= LEAST_BUDGET
+}
+
 /// Settles a scene without weights that are still to be baked.
-fn settle_baked(scene: &Scene) -> Result<Settled<'_>, RenderError> {
+fn settle_baked(scene: &Scene, effort: Effort) -> Result<Settled<'_>, RenderError> {
+    let budget = Budget::new(scene, effort);
     let was_open = scene.render.light_choice == LightChoice::Auto;
-    let Chosen { scene, mut because, was_tried, mut integrator } = trial::choose(scene)?;
+    let Chosen { scene, mut because, mut was_tried, mut integrator, left } = trial::choose(scene, budget)?;
     let light_cells = integrator.as_ref().and_then(|integrator| integrator.light_cells().cloned());
     let mut guide = None;
-    if scene.render.guiding != Guiding::Off {
-        let mut ready = integrator.map_or_else(|| Integrator::new(&scene), Ok)?;
-        Learned { guide, because: because.directions } = guide::train(&mut ready);
-        integrator = Some(ready);
+    match guide::why_none(&scene, left) {
+        Some(why) => because.directions = why,
+        None => {
+            let mut ready = integrator.map_or_else(|| Integrator::new(&scene), Ok)?;
+            Learned { guide, because: because.directions } = guide::train(&mut ready, left);
+            was_tried = true;
+            integrator = Some(ready);
+        }
     }
-    let depends_on_view = was_tried || because.directions.is_some() || light_cells.is_some();
+    let depends_on_view = was_tried || light_cells.is_some();
     let chose_cells = was_open && light_cells.is_some();
     Ok(Settled { scene, because, light_cells, guide, depends_on_view, integrator, chose_cells })
 }

@@ -10,6 +10,22 @@ pub const FILE: &str = "shading/material/lobes.wgsl";
 /// Name under which kernels import the file of further parameters.
 pub const PARAMETERS_FILE: &str = "shading/material/parameters.wgsl";
 
+/// The function that says how much of a lobe a guide may replace.
+const BROAD_SHARE: &str = "
+// The share of the lobe's samples that go in all directions above the surface, mostly evenly, which a guide may replace.
+fn lobe_broad_share(lobe: Lobe) -> f32 {
+    let kind = lobe_kind(lobe);
+#if PRINCIPLED
+    if kind == PRINCIPLED {
+        return principled_broad_share(lobe);
+    }
+#endif
+    let is_rough_diffuse = kind == OREN_NAYAR || kind == QUALITATIVE_OREN_NAYAR || kind == ENERGY_PRESERVING_OREN_NAYAR;
+    let is_broad = kind == DIFFUSE || is_rough_diffuse || kind == DUST || kind == PLASTIC || kind == ROUGH_PLASTIC;
+    return select(0.0, 1.0, is_broad);
+}
+";
+
 /// The text of the file that hands lobes on. A lobe `NAME` has the functions `NAME_sampling_weight` and
 /// `sample_NAME`, and unless it is a delta `NAME_is_non_delta` and `evaluate_NAME`; only lobes that the plan
 /// turns on are compiled.
@@ -27,6 +43,7 @@ pub fn wgsl() -> String {
     text += &dispatch("lobe_is_non_delta(lobe: Lobe) -> bool", non_delta(), "false", |name| format!("{name}_is_non_delta(lobe)"));
     text += "\n// The share of incoming light that the lobe scatters, roughly, by which a mixture chooses its samples.\n";
     text += &dispatch("lobe_sampling_weight(lobe: Lobe) -> f32", all(), "0.0", |name| format!("{name}_sampling_weight(lobe)"));
+    text += BROAD_SHARE;
     text += "\n// f |cos| and density; 0 for delta lobes.\n";
     let signature = "evaluate_lobe(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue";
     text += &dispatch(signature, non_delta(), "no_value()", |name| format!("evaluate_{name}(lobe, surface, wo, wi)"));

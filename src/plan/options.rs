@@ -45,6 +45,8 @@ pub struct PlanOptions {
     pub compile_in: Vec<&'static str>,
     /// Longest time of one submission before the device counts as lost; None: a minute.
     pub device_timeout: Option<Duration>,
+    /// The time after which the render ends, if it does: there is less to learn for a short one ([`crate::learn`]).
+    pub time_limit: Option<Duration>,
     /// Compute wrongly, so that tests can see whether it is noticed.
     pub fault: Option<Fault>,
 }

@@ -285,7 +285,7 @@ mod tests {
 
     fn scene(rest: &str) -> Scene {
         let text = format!(
-            "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[render]\nmax_depth = 3\n[[material]]\nname = 'grey'\n\
+            "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[render]\nmax_depth = 3\nguiding = 'off'\n[[material]]\nname = 'grey'\n\
              type = 'diffuse'\nreflectance = 0.5\n[[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'grey'\n{rest}"
         );
         load_toml_str(&text, "test", std::path::Path::new(".")).unwrap_or_else(|error| panic!("{error}"))

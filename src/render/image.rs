@@ -10,6 +10,12 @@ use crate::film::Band;
 use crate::output::{self, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_picture};
 
 /// A picture: linear Rec. 709 radiance, row by row from the top.
+///
+/// ```
+/// let grey = gpt::Image::from_pixels(4, 2, vec![[0.5; 3]; 8]).expect("as many pixels as that");
+/// assert_eq!((grey.width(), grey.pixels()[7]), (4, [0.5; 3]));
+/// assert!(gpt::Image::from_pixels(4, 2, Vec::new()).is_none());
+/// ```
 #[derive(Debug, Clone)]
 pub struct Image {
     pixels: output::Image,
@@ -150,6 +156,13 @@ impl Image {
 }
 
 /// Measures how far a picture is from its reference.
+///
+/// ```
+/// let picture = |grey: f32| gpt::Image::from_pixels(8, 8, vec![[grey; 3]; 64]).expect("as many pixels as that");
+/// let comparison = gpt::compare(&picture(0.4), &picture(0.5))?;
+/// assert!((comparison.largest.difference - 0.1).abs() < 1e-6);
+/// # Ok::<(), gpt::Error>(())
+/// ```
 ///
 /// # Errors
 /// [`Error::Sizes`].

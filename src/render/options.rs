@@ -20,6 +20,26 @@ pub const PARTS_OF_STRATA: &str = "the samplers `stratified` and `hammersley` la
 /// How a scene is rendered. The default renders what the scene says on the best device there is.
 ///
 /// How light is estimated is part of the scene: see [`Scene::render`](crate::Scene#structfield.render).
+///
+/// A render that ends after ten seconds at most, sooner if its relative mean squared error is below 0.001:
+///
+/// ```no_run
+/// use std::time::Duration;
+///
+/// use gpt::Render;
+///
+/// let options = gpt::RenderOptions {
+///     size: Some([640, 480]),
+///     samples: Some(4096),
+///     time_limit: Some(Duration::from_secs(10)),
+///     target_error: Some(0.001),
+///     ..Default::default()
+/// };
+/// let image = gpt::Scene::load("cornell")?.render(&options)?;
+/// let outcome = image.outcome().expect("it was rendered");
+/// println!("ended by {:?}, {:?}", outcome.stop, outcome.error);
+/// # Ok::<(), gpt::Error>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct RenderOptions {
     /// Which device renders.
@@ -52,7 +72,7 @@ impl RenderOptions {
     pub(super) fn plan_options(&self) -> PlanOptions {
         // A region of some columns leaves pixels out.
         let pixel_list = self.adaptive || self.crop.is_some();
-        PlanOptions { pixel_list, most_film_pixels: self.most_film_pixels(), ..self.plan.clone() }
+        PlanOptions { pixel_list, most_film_pixels: self.most_film_pixels(), time_limit: self.time_limit, ..self.plan.clone() }
     }
 
     /// How many pixels of the film are kept at a time, where that is bounded: of a region about as many as it has, or so few that they do not matter. A

@@ -4,6 +4,24 @@ use crate::confidence::IntervalEstimate;
 use crate::film::Band;
 
 /// Is told how far a render is, and says whether it should go on. Called from the rendering thread, several times a second.
+///
+/// ```no_run
+/// struct Percent;
+///
+/// impl gpt::Observer for Percent {
+///     fn progress(&self, done: u64, total: u64) {
+///         eprintln!("{} %", 100 * done / total.max(1));
+///     }
+///
+///     fn stop_requested(&self) -> bool {
+///         false
+///     }
+/// }
+///
+/// let scene = gpt::Scene::load("cornell")?;
+/// let image = gpt::Renderer::new(&scene, &gpt::RenderOptions::default())?.image(&Percent)?;
+/// # Ok::<(), gpt::Error>(())
+/// ```
 pub trait Observer: Sync {
     /// `done` of `total` samples (pixels × spp) are finished.
     fn progress(&self, done: u64, total: u64);

@@ -161,7 +161,8 @@ pub fn verify_watched(
     observer: &dyn Observer,
 ) -> Result<Option<Verdict>, RenderError> {
     let mut gpu = GpuRenderer::on(&Device::open_for(choice, options)?, scene, options)?;
-    compare_watched(scene, &mut gpu, &mut ReferenceRenderer::new(scene)?, None, observer)
+    let mut cpu = ReferenceRenderer::of_length(scene, None, gpu.effort())?;
+    compare_watched(scene, &mut gpu, &mut cpu, None, observer)
 }
 
 /// Does the work of [`verify`] on a device that is already open. `share` is what is [known](shares) of the
@@ -176,7 +177,7 @@ pub fn verify_on(
     share: Option<shares::MeasuredShare>,
 ) -> Result<Verdict, RenderError> {
     let mut gpu = GpuRenderer::on(device, scene, options)?;
-    let mut cpu = ReferenceRenderer::new(scene)?;
+    let mut cpu = ReferenceRenderer::of_length(scene, None, gpu.effort())?;
     let planted = planted(&gpu, options);
     let verdict = compare(scene, &mut gpu, &mut cpu, share)?;
     Ok(Verdict { planted, ..verdict })

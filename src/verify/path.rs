@@ -117,7 +117,7 @@ pub fn compare_path(
     let options = PlanOptions { trace: true, ..options.clone() };
     let gpu = GpuRenderer::on(device, scene, &options)?;
     let ours = gpu.trace(x, y, sample)?;
-    let reference = ReferenceRenderer::new(scene)?;
+    let reference = ReferenceRenderer::of_length(scene, None, gpu.effort())?;
     let theirs = reference.trace(x, y, sample);
     let gpu_radiance = ours.radiance.map(f64::from);
     let cpu_radiance = theirs.radiance.to_rgb();

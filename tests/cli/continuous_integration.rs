@@ -45,15 +45,17 @@ fn commands(page: &str, key: &str) -> Vec<String> {
     block(&lines, at).into_iter().filter_map(|line| line.trim().strip_prefix("- ").map(str::to_owned)).collect()
 }
 
-/// Runs a script as GitHub does, in the place, with `gpt` on the path.
+/// Runs a script as GitHub does, in the place. On the path are the folders that steps before it have put there, or else that of the program.
 fn run(place: &Workplace, script: &str, environment: &[(String, String)]) -> Output {
-    let programs = Path::new(env!("CARGO_BIN_EXE_gpt")).parent().expect("a folder");
-    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap_or_default());
+    let programs = Path::new(env!("CARGO_BIN_EXE_gpt")).parent().expect("a folder").display().to_string();
+    let added = fs::read_to_string(place.path("added-to-path")).unwrap_or(programs);
+    let path = format!("{}:{}", added.trim().replace('\n', ":"), std::env::var("PATH").unwrap_or_default());
     Command::new("bash")
         .args(["--noprofile", "--norc", "-eo", "pipefail", "-c", script])
         .current_dir(place.0.path())
         .env("PATH", path)
         .env("GITHUB_ACTION_PATH", project())
+        .env("GITHUB_PATH", place.path("added-to-path"))
         .env("RUNNER_TEMP", place.0.path())
         .envs(environment.iter().cloned())
         .output()
@@ -73,13 +75,42 @@ fn spoil(place: &Workplace) {
     fs::write(place.path("tests/scenes/lit.toml"), scene().replace("reflectance = 0.5", "reflectance = 0.55")).expect("a scene");
 }
 
+/// A release as GitHub serves it, in the place: an archive with a program that passes on to the one under test, and its sum. The address of the
+/// repository that has it.
+#[cfg(target_os = "linux")]
+fn release(place: &Workplace) -> String {
+    let make = r#"
+        name=gpt-$version-$(uname -m)-unknown-linux-gnu
+        mkdir -p "$name" "releases/download/v$version"
+        printf '#!/bin/sh\nexec "%s" "$@"\n' "$program" >"$name/gpt"
+        chmod +x "$name/gpt"
+        tar czf "releases/download/v$version/$name.tar.gz" "$name"
+        rm -r "$name"
+        cd "releases/download/v$version"
+        sha256sum "$name.tar.gz" >"$name.tar.gz.sha256"
+    "#;
+    let environment = [("version", env!("CARGO_PKG_VERSION")), ("program", env!("CARGO_BIN_EXE_gpt"))];
+    let made = run(place, make, &environment.map(|(name, value)| (name.to_owned(), value.to_owned())));
+    assert!(made.status.success(), "{}", text(&made.stderr));
+    format!("file://{}", place.0.path().display())
+}
+
+#[cfg(target_os = "linux")]
 #[test]
 fn the_actions_steps_run_as_they_stand() {
     if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
         return;
     }
     let place = blessed();
-    let inputs = [("directory", "tests/scenes"), ("arguments", "--change 2%"), ("report", "out")];
+    let repository = release(&place);
+    let inputs = [
+        ("directory", "tests/scenes"),
+        ("arguments", "--change 2%"),
+        ("report", "out"),
+        ("version", ""),
+        ("sha256", ""),
+        ("repository", &repository),
+    ];
     let steps = steps(&project_file("action.yml"), &inputs);
     assert_eq!(steps.len(), 3, "{steps:?}");
     for (script, environment) in &steps {
@@ -87,9 +118,43 @@ fn the_actions_steps_run_as_they_stand() {
         assert!(output.status.success(), "{script}\n{}{}", text(&output.stdout), text(&output.stderr));
     }
     assert!(place.path("out/report.html").is_file() && place.path("out/junit.xml").is_file());
+    let added = fs::read_to_string(place.path("added-to-path")).expect("a folder was put on the path");
+    assert!(Path::new(added.trim()).join("gpt").is_file(), "the program that was downloaded is the one that ran: {added}");
     // The control: what differs makes the step fail.
     spoil(&place);
     assert_eq!(run(&place, &steps[2].0, &steps[2].1).status.code(), Some(7));
+}
+
+/// No program is unpacked whose sum is not the one that is expected, whoever states it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_download_with_another_sum_is_refused() {
+    let place = Workplace::new();
+    let repository = release(&place);
+    let version = env!("CARGO_PKG_VERSION");
+    let download = |into: &str, sum: &str| {
+        let script = project().join("scripts/download-release");
+        run(&place, &format!("'{}' {repository} {version} {into} {sum}", script.display()), &[])
+    };
+    let output = download("good", "");
+    assert!(output.status.success() && place.path(text(&output.stdout).trim()).join("gpt").is_file(), "{output:?}");
+    let other = "0".repeat(64);
+    let beside = fs::read_dir(place.path(&format!("releases/download/v{version}")))
+        .expect("a release")
+        .map(|entry| entry.expect("a file").path());
+    for sum in beside.filter(|path| path.extension().is_some_and(|ending| ending == "sha256")) {
+        fs::write(sum, format!("{other}  archive\n")).expect("a sum");
+    }
+    for (into, sum) in [("stated", ""), ("pinned", other.as_str())] {
+        let output = download(into, sum);
+        let message = text(&output.stderr);
+        assert!(!output.status.success() && message.contains("is not unpacked"), "{message}");
+        assert!(fs::read_dir(place.path(into)).expect("a folder").all(|entry| !entry.expect("an entry").path().is_dir()));
+    }
+    let output = download("absent", "");
+    assert!(!output.status.success());
+    let none = run(&place, &format!("'{}' {repository} 99.0.0 none", project().join("scripts/download-release").display()), &[]);
+    assert!(!none.status.success() && text(&none.stderr).contains("cannot be fetched"), "{}", text(&none.stderr));
 }
 
 #[test]
@@ -99,15 +164,15 @@ fn the_pages_commands_run_as_they_stand() {
     }
     let place = blessed();
     let page = project_file("docs/ci.md");
-    let all: Vec<String> = ["before_script", "script"].into_iter().flat_map(|key| commands(&page, key)).collect();
-    assert_eq!(all.len(), 3, "{all:?}");
+    let all = commands(&page, "script");
+    assert_eq!(all.len(), 1, "{all:?}");
     for command in &all {
         let output = run(&place, command, &[]);
         assert!(output.status.success(), "{command}\n{}{}", text(&output.stdout), text(&output.stderr));
     }
     assert!(place.path("report.html").is_file() && place.path("junit.xml").is_file());
     spoil(&place);
-    assert_eq!(run(&place, &all[2], &[]).status.code(), Some(7));
+    assert_eq!(run(&place, &all[0], &[]).status.code(), Some(7));
     assert!(
         page.contains("directory:") && project_file("action.yml").contains("\n  directory:"),
         "the inputs are those of the action"

@@ -12,8 +12,8 @@ const FOLDERS: [&str; 10] =
     ["src/", "crates/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
 /// Documents about the past: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
-/// Flags of cargo and of openjd that documents use.
-const FLAGS_OF_OTHERS: [&str; 10] = [
+/// Flags of cargo, openjd, docker, gh and oiiotool that documents use.
+const FLAGS_OF_OTHERS: [&str; 13] = [
     "--release",
     "--locked",
     "--path",
@@ -24,6 +24,9 @@ const FLAGS_OF_OTHERS: [&str; 10] = [
     "--step",
     "--run-dependencies",
     "--eraseattrib",
+    "--info",
+    "--repo",
+    "--rm",
 ];
 
 /// The flags of each command of the program, from its help.
@@ -90,7 +93,8 @@ impl Document {
         let (mut prose, mut commands, mut block) = (String::new(), Vec::new(), None);
         for line in text.lines() {
             match (line.strip_prefix("```"), block) {
-                (Some(language), None) => block = Some(language),
+                // Words behind the language are for scripts/pages.
+                (Some(language), None) => block = Some(language.split(' ').next().unwrap_or("")),
                 (Some(_), Some(_)) => block = None,
                 (None, Some("sh")) => commands.push(line.split(" #").next().unwrap_or(line).to_owned()),
                 (None, Some(_)) => {}
@@ -272,8 +276,8 @@ fn documents_name_what_exists() {
 fn the_readmes_scene_is_the_file_it_names() {
     let readme = fs::read_to_string(project().join("README.md")).expect("the README");
     let scene = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene in the README");
-    assert_eq!(scene, fs::read_to_string(project().join("docs/still-life.toml")).expect("the scene's file"));
-    let check = Command::new(env!("CARGO_BIN_EXE_gpt")).args(["check", "docs/still-life.toml"]).current_dir(project()).output();
+    assert_eq!(scene, fs::read_to_string(project().join("docs/hello.toml")).expect("the scene's file"));
+    let check = Command::new(env!("CARGO_BIN_EXE_gpt")).args(["check", "docs/hello.toml"]).current_dir(project()).output();
     let check = check.expect("the program starts");
     assert!(check.status.success(), "{}", text(&check.stderr));
 }

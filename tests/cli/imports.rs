@@ -18,6 +18,37 @@ fn place() -> Workplace {
     place
 }
 
+const PBRT: &str = r#"LookAt 0 0 4  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 16 "integer yresolution" 12
+Sampler "halton" "integer pixelsamples" 4
+WorldBegin
+Shape "sphere" "float foo" 1
+Shape "curve"
+LightSource "infinite""#;
+
+#[test]
+fn scenes_of_pbrt_are_rendered_written_and_checked() {
+    let place = Workplace::new();
+    place.write("a.pbrt", PBRT);
+    let said = place.expect(0, "render a.pbrt --device cpu --quiet -o a.exr --save-scene b.toml");
+    assert!(said.contains("2 things are dropped") && said.lines().count() == 1, "{said}");
+    place.expect(0, "import a.pbrt -o c.toml");
+    for scene in ["b.toml", "c.toml"] {
+        place.expect(0, &format!("render {scene} --device cpu --quiet -o b.exr"));
+        place.expect(0, "compare a.exr b.exr");
+    }
+    let said = text(&place.run("check a.pbrt").stdout);
+    assert!(said.contains("Shape `curve`: it is left out [a.pbrt:7]") && said.contains("Shape `sphere`: `foo`"), "{said}");
+    place.write("b.pbrt", PBRT.replace("\"float foo\" 1", "\"float radius\" x"));
+    let said = place.expect(3, "check b.pbrt");
+    assert!(said.contains("b.pbrt:6:31") && said.contains("expects numbers"), "{said}");
+    for (more, word) in [("--camera left", "`left`"), ("-D size=1", "$size")] {
+        let said = place.expect(3, &format!("check a.pbrt {more}"));
+        assert!(said.contains(word), "{said}");
+    }
+}
+
 #[test]
 fn what_is_written_renders_the_same_picture() {
     let place = place();

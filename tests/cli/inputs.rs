@@ -192,13 +192,7 @@ fn a_map_of_few_bits_is_taken_and_said() {
 #[test]
 fn other_formats_are_named_with_what_converts_them() {
     let place = Workplace::new();
-    for (name, said) in [
-        ("a.blend", "Blender"),
-        ("a.stl", "assimp export"),
-        ("a.usdz", "USD"),
-        ("a.pbrt", "scene file"),
-        ("a.jpg", "is a picture"),
-    ] {
+    for (name, said) in [("a.blend", "Blender"), ("a.stl", "assimp export"), ("a.usdz", "USD"), ("a.jpg", "is a picture")] {
         place.write(name, "x");
         let stderr = place.expect(3, &format!("render {name}"));
         assert!(stderr.contains(said) && stderr.contains("scene files (.toml), models (.obj, .ply)"), "{name}: {stderr}");

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
-use gpt::learn::settle;
+use gpt::learn::{Effort, settle};
 use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
@@ -94,8 +94,8 @@ fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -
     let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
     let of_scene = |scene: &Scene| {
         let mut packed = PackedScene::for_traversal(scene, traversal).expect("it packs");
-        if scene.render.guiding != Guiding::Off {
-            let guide = settle(scene).expect("the reference renders it").guide;
+        if scene.render.guiding == Guiding::On {
+            let guide = settle(scene, Effort::default()).expect("the reference renders it").guide;
             packed.guide = guide.map_or_else(Vec::new, |guide| guide.words().to_vec());
         }
         // Ray queries do not see what moves.

@@ -1,9 +1,10 @@
 //! How lights are drawn from where the settings leave it open.
 
 use std::path::Path;
+use std::time::Duration;
 
 use gpt::cpu::ReferenceRenderer;
-use gpt::learn::settle;
+use gpt::learn::{Effort, Pace, settle};
 use gpt::load;
 use gpt::scene::{Estimator, Guiding, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 
@@ -17,7 +18,7 @@ fn built_in(name: &str) -> Scene {
 }
 
 fn settled(scene: &Scene) -> RenderSettings {
-    settle(scene).expect("the reference can render the scene").scene.render.clone()
+    settle(scene, Effort::default()).expect("the reference can render the scene").scene.render.clone()
 }
 
 fn light_samples(scene: &Scene) -> [u32; 2] {
@@ -68,10 +69,11 @@ fn several_light_samples_are_taken_where_they_pay() {
     assert!(count > 1, "{count}");
 }
 
-/// The choice belongs to the scene: whoever renders a part of the picture, or goes on with it, comes to the same.
+/// The choice belongs to the whole picture: whoever renders a part of it and states how many samples the whole has comes to the same.
 #[test]
-fn the_choice_depends_on_neither_seed_nor_samples() {
-    let scene = built_in("veach-mis");
+fn the_choice_depends_on_neither_the_seed_nor_the_part() {
+    let mut scene = built_in("veach-mis");
+    scene.render.expected_spp = 256.into();
     let chosen = settled(&scene);
     assert_ne!(chosen.light_samples, NumberOrAuto::Auto);
     for (seed, spp) in [(0, 1), (1, 256), (77, 100_000)] {
@@ -79,6 +81,28 @@ fn the_choice_depends_on_neither_seed_nor_samples() {
         (other.render.seed, other.render.spp) = (seed, spp);
         assert_eq!(settled(&other), RenderSettings { seed, spp, ..chosen.clone() });
     }
+    // The control: a part that does not state it is taken for a short render.
+    (scene.render.spp, scene.render.expected_spp) = (1, NumberOrAuto::Auto);
+    assert_eq!(settled(&scene).light_samples, NumberOrAuto::Auto);
+}
+
+/// What is learned takes its share of the render: nothing is where that is over at once, by its samples, by a time limit or on a graphics card.
+#[test]
+fn short_renders_learn_nothing() {
+    let choice = |spp: u32, effort: Effort| {
+        let mut scene = built_in("veach-mis");
+        scene.render.spp = spp;
+        let settled = settle(&scene, effort).expect("the reference can render the scene");
+        let because = settled.because.light_samples.clone().expect("there is a reason");
+        (settled.scene.render.light_samples != NumberOrAuto::Auto, because)
+    };
+    let limited = |seconds: f64| Effort { time_limit: Some(Duration::from_secs_f64(seconds)), ..Effort::default() };
+    let too_short = (false, "the render is too short to learn for".to_owned());
+    assert!(choice(256, Effort::default()).0 && choice(256, limited(600.0)).0);
+    assert_eq!(choice(4, Effort::default()), too_short);
+    assert_eq!(choice(256, limited(0.01)), too_short);
+    assert_eq!(choice(256, Effort { pace: Pace::Card, ..Effort::default() }), too_short);
+    assert!(choice(16_384, Effort { pace: Pace::Card, ..Effort::default() }).0);
 }
 
 #[test]
@@ -86,6 +110,7 @@ fn what_is_given_stays_and_what_cannot_pay_is_not_tried() {
     let scene = built_in("veach-mis");
     let given = |change: fn(&mut RenderSettings)| {
         let mut scene = scene.clone();
+        scene.render.guiding = Guiding::Off;
         change(&mut scene.render);
         scene
     };
@@ -93,11 +118,11 @@ fn what_is_given_stays_and_what_cannot_pay_is_not_tried() {
     let without_lights = |render: &mut RenderSettings| render.estimator = Estimator::Bsdf;
     let not_tried = [given(without_lights), given(|render| render.max_depth = 1), {
         let mut small = scene.clone();
-        small.film.size = [255, 256];
+        (small.render.spp, small.render.guiding) = (4, Guiding::Off);
         small
     }];
     for scene in not_tried {
-        let settled = settle(&scene).expect("the reference can render the scene");
+        let settled = settle(&scene, Effort::default()).expect("the reference can render the scene");
         assert_eq!((settled.scene.render.several_light_samples(), settled.depends_on_view), ([1, 1], false));
         assert!(settled.because.light_samples.is_some());
     }
@@ -111,25 +136,25 @@ fn nothing_is_tried_where_only_an_even_sky_gives_light() {
         [[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"grey\"\n\
         [[light]]\ntype = \"environment\"\nradiance = 1\n";
     let scene = load::load_toml_str(text, "even", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
-    let settled = settle(&scene).expect("the reference can render the scene");
+    let settled = settle(&scene, Effort::default()).expect("the reference can render the scene");
     assert_eq!(
         (settled.because.light_samples.as_deref(), settled.scene.render.several_light_samples()),
         (Some("no light is sampled"), [1, 1])
     );
 }
 
-/// With `auto` paths are guided neither in pictures for which learning takes too long, nor where it has begun and does not pay.
+/// Paths are guided neither in renders that are over before learning pays, nor where it has begun and does not pay.
 #[test]
 fn a_guide_that_does_not_pay_is_given_up() {
-    let because = |size: [u32; 2]| {
+    let because = |spp: u32| {
         let mut scene = built_in("veach-mis");
-        (scene.film.size, scene.render.guiding) = (size, Guiding::Auto);
-        let learned = settle(&scene).expect("the reference can render the scene");
+        scene.render.spp = spp;
+        let learned = settle(&scene, Effort::default()).expect("the reference can render the scene");
         assert!(learned.guide.is_none());
         learned.because.directions.expect("there is a reason")
     };
-    assert_eq!(because([255, 256]), "learning takes too long for so few pixels");
-    let after_a_trial_run = because(SIZE);
+    assert_eq!(because(16), "the render is too short to learn for");
+    let after_a_trial_run = because(256);
     assert!(after_a_trial_run.starts_with("a trial run found 1."), "{after_a_trial_run}");
 }
 
@@ -139,7 +164,7 @@ fn a_guide_learns_of_as_many_paths_as_are_wanted() {
     let because = |paths: NumberOrAuto| {
         let mut scene = built_in("cornell");
         (scene.film.size, scene.render.guiding, scene.render.guiding_paths) = ([32, 24], Guiding::On, paths);
-        let learned = settle(&scene).expect("the reference can render the scene");
+        let learned = settle(&scene, Effort::default()).expect("the reference can render the scene");
         learned.because.directions.expect("there is a reason")
     };
     for (paths, both) in [(NumberOrAuto::Auto, 24_576), (4096.into(), 6144), (5000.into(), 5120 + 2560)] {
@@ -154,7 +179,7 @@ fn a_guide_learns_of_as_many_paths_as_are_wanted() {
 fn a_guide_that_pays_late_is_kept() {
     let mut scene = built_in("cellar");
     scene.render.guiding = Guiding::Auto;
-    let learned = settle(&scene).expect("the reference can render the scene");
+    let learned = settle(&scene, Effort::default()).expect("the reference can render the scene");
     let because = learned.because.directions.clone().expect("there is a reason");
     assert!(learned.guide.is_some() && because.starts_with("a trial run found 0."), "{because}");
 }

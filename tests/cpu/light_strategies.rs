@@ -7,7 +7,7 @@ use glam::Vec3;
 use gpt::compare::image_tests::{ImageView, TileSettings, compare_replications};
 use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
-use gpt::learn::settle;
+use gpt::learn::{Effort, settle};
 use gpt::load;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{
@@ -176,7 +176,7 @@ fn cells_of_lights_at_infinity_change_no_picture() {
 
 /// The words by which lights are chosen in cells, if they are.
 fn learned(scene: &Scene) -> Option<Vec<u32>> {
-    let settled = settle(scene).expect("the reference can render the scene");
+    let settled = settle(scene, Effort::default()).expect("the reference can render the scene");
     settled.integrator.and_then(|integrator| integrator.light_cells().map(|cells| cells.words().to_vec()))
 }
 
@@ -223,12 +223,13 @@ fn what_is_learned_of_lights_depends_on_the_scene_and_its_film_alone() {
 /// Lists of lights help where they hold what reaches a place.
 #[test]
 fn cells_of_lights_are_taken_where_lists_hold_the_light() {
-    let choice = |scene: &Scene| settle(scene).expect("the reference can render the scene").scene.render.light_choice;
+    let choice =
+        |scene: &Scene| settle(scene, Effort::default()).expect("the reference can render the scene").scene.render.light_choice;
     assert_eq!(choice(&hall(0)), LightChoice::Cells);
     assert_eq!(choice(&hall(3000)), LightChoice::Tree);
-    // Too few pixels, one light, nothing sampled.
+    // Too few samples, one light, nothing sampled.
     let mut small = hall(0);
-    small.film.size = [255, 256];
+    small.render.spp = 1;
     let mut by_bsdf = hall(0);
     by_bsdf.render.estimator = Estimator::Bsdf;
     let mut one = load(&[LAMP]);
@@ -252,7 +253,7 @@ fn cells_of_few_lights_are_taken_where_a_trial_run_finds_them_better() {
     let settled = |parts: &[&str]| {
         let mut scene = load(parts);
         scene.film.size = [256, 256];
-        let settled = settle(&scene).expect("the reference can render the scene");
+        let settled = settle(&scene, Effort::default()).expect("the reference can render the scene");
         let has_cells = settled.integrator.is_some_and(|integrator| integrator.light_cells().is_some());
         assert_eq!(has_cells, settled.scene.render.light_choice == LightChoice::Cells);
         (settled.scene.render.light_choice, settled.because.light_choice)

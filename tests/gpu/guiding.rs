@@ -35,6 +35,13 @@ name = "glaze"
 type = "plastic"
 reflectance = [0.6, 0.2, 0.1]
 [[material]]
+name = "paint"
+type = "principled"
+base_color = [0.3, 0.4, 0.6]
+metallic = 0.2
+roughness = 0.4
+clearcoat = 0.5
+[[material]]
 name = "half mirror"
 type = "blend"
 materials = ["white", "mirror"]
@@ -62,6 +69,11 @@ type = "sphere"
 center = [-0.6, 0.5, 0.4]
 radius = 0.5
 material = "glaze"
+[[shape]]
+type = "sphere"
+center = [-1.2, 0.3, 1.2]
+radius = 0.3
+material = "paint"
 [[shape]]
 type = "sphere"
 center = [0.6, 0.4, 0.9]

@@ -26,6 +26,53 @@ fn repeated(count: usize, line: impl Fn(usize) -> String) -> String {
 }
 
 #[test]
+fn pbrt_scenes_of_many_things() {
+    let _turn = take_turn();
+    type Lines = fn(usize) -> String;
+    let nothing: Lines = |_| String::new();
+    let rows: [(&str, usize, Lines, Lines); 10] = [
+        ("shapes", 2000, |_| "Shape \"sphere\"".to_owned(), nothing),
+        ("materials", 1000, |_| "Material \"diffuse\" Shape \"sphere\"".to_owned(), nothing),
+        (
+            "names of materials",
+            1000,
+            |i| format!("MakeNamedMaterial \"m{i}\" \"string type\" \"diffuse\""),
+            |i| format!("NamedMaterial \"m{i}\" Shape \"sphere\""),
+        ),
+        (
+            "media",
+            1000,
+            |i| format!("MakeNamedMedium \"m{i}\" \"string type\" \"homogeneous\""),
+            |i| format!("MediumInterface \"m{i}\" \"\" Material \"interface\" Shape \"sphere\""),
+        ),
+        (
+            "textures",
+            1000,
+            |i| format!("Texture \"t{i}\" \"spectrum\" \"checkerboard\""),
+            |i| format!("Material \"diffuse\" \"texture reflectance\" \"t{i}\" Shape \"sphere\""),
+        ),
+        ("blocks", 4000, |_| "AttributeBegin Translate 1 0 0 AttributeEnd".to_owned(), nothing),
+        ("blocks within each other", 2000, |_| "AttributeBegin".to_owned(), |_| "AttributeEnd".to_owned()),
+        ("objects", 1000, |i| format!("ObjectBegin \"o{i}\" Shape \"sphere\" ObjectEnd"), |i| format!("ObjectInstance \"o{i}\"")),
+        ("lights", 1000, |i| format!("LightSource \"point\" \"point3 from\" [ {i} 0 0 ]"), nothing),
+        (
+            "vertices of a mesh",
+            4000,
+            |i| if i == 0 { "Shape \"trianglemesh\" \"point3 P\" [".to_owned() } else { format!("{i} {} 0", i * i % 7) },
+            |i| if i == 0 { "] \"integer indices\" [".to_owned() } else { format!("0 1 {i}") },
+        ),
+    ];
+    for (what, count, lines, uses) in rows {
+        assert_linear(what, count, |count| {
+            let used = if what == "vertices of a mesh" { count - 1 } else { count };
+            let end = if what == "vertices of a mesh" { "]" } else { "" };
+            let scene = format!("WorldBegin\n{}{}{end}\nShape \"disk\"\n", repeated(count, lines), repeated(used, uses));
+            read(&[("scene.pbrt", scene.as_bytes())]);
+        });
+    }
+}
+
+#[test]
 fn mitsuba_scenes_of_many_things() {
     let _turn = take_turn();
     let png = png_bytes([90, 120, 150]);

@@ -240,6 +240,42 @@ fn damaged_mitsuba_scenes() {
     damage("Mitsuba scene", "a.xml", scene.as_bytes(), &[("h.png", &png_bytes([9, 8, 7]))], "a.xml", as_it_is);
 }
 
+#[test]
+fn damaged_pbrt_scenes() {
+    let scene = r#"LookAt 0 0 4 0 0 0 0 1 0
+Camera "perspective" "float fov" 40 "float lensradius" 0.1 "float focaldistance" 4
+Film "rgb" "integer xresolution" 40 "integer yresolution" 30 "float cropwindow" [ 0 0.5 0 1 ]
+WorldBegin
+Include "part.pbrt"
+Texture "tiles" "spectrum" "checkerboard" "rgb tex1" [ 0.1 0.2 0.3 ]
+Texture "heights" "float" "imagemap" "string filename" "h.png" "float scale" 0.1
+MakeNamedMaterial "bumps" "string type" "coateddiffuse" "texture reflectance" "tiles" "texture displacement" "heights" "float roughness" 0.1
+MakeNamedMaterial "metal" "string type" "conductor" "spectrum eta" "metal-Cu-eta" "spectrum k" [ 400 2 700 3 ]
+MakeNamedMaterial "m" "string type" "mix" "string materials" [ "bumps" "metal" ] "float amount" 0.5
+MakeNamedMedium "smoke" "string type" "uniformgrid" "integer nx" 2 "integer ny" 2 "float density" [ 0 1 2 3 ] "blackbody Le" 3000
+ObjectBegin "o"
+NamedMaterial "m"
+Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ] "integer indices" [ 0 1 2 1 3 2 ] "normal N" [ 0 0 1 0 0 1 0 0 1 0 0 1 ]
+Shape "cylinder" "float phimax" 90
+ObjectEnd
+AttributeBegin
+Rotate 20 1 0 0
+ActiveTransform EndTime
+Translate 0 1 0
+ActiveTransform All
+ObjectInstance "o"
+MediumInterface "smoke" ""
+Material "interface"
+Shape "sphere" "float alpha" 0.5
+AttributeEnd
+AreaLightSource "diffuse" "rgb L" [ 1 2 3 ] "float power" 5
+Shape "loopsubdiv" "integer levels" 2 "point3 P" [ 0 0 0 1 0 0 0 1 0 0 0 1 ] "integer indices" [ 0 2 1 0 1 3 1 2 3 2 0 3 ]
+Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 1 ]
+LightSource "infinite" "string filename" "h.png""#;
+    let others: [(&str, &[u8]); 2] = [("h.png", &png_bytes([9, 8, 7])), ("part.pbrt", b"LightSource \"point\"")];
+    damage("pbrt scene", "a.pbrt", scene.as_bytes(), &others, "a.pbrt", as_it_is);
+}
+
 /// A scene around one mesh.
 fn around(kind: &str, file: &str, bsdf: &str) -> String {
     format!(r#"<scene version="3.0.0"><shape type="{kind}"><string name="filename" value="{file}"/>{bsdf}</shape></scene>"#)

@@ -55,6 +55,22 @@ fn files_that_are_included_over_and_over() {
 }
 
 #[test]
+fn files_of_pbrt_that_are_included_over_and_over() {
+    let _turn = take_turn();
+    let spheres = "Shape \"sphere\"\n".repeat(3000);
+    let included = format!("WorldBegin\n{}", "Include \"spheres.pbrt\"\n".repeat(900));
+    refused(&[("scene.pbrt", included.as_bytes()), ("spheres.pbrt", spheres.as_bytes())], "shapes");
+    let chain = |next: usize| format!("Include \"{next}.pbrt\"\nInclude \"{next}.pbrt\"\n");
+    let files: Vec<(String, String)> = (0..30).map(|index| (format!("{index}.pbrt"), chain(index + 1))).collect();
+    let start = format!("WorldBegin\n{}", chain(0));
+    let last = ("30.pbrt".to_owned(), String::new());
+    let all: Vec<(&str, &[u8])> = std::iter::once(("scene.pbrt", start.as_bytes()))
+        .chain(files.iter().chain([&last]).map(|(name, text)| (name.as_str(), text.as_bytes())))
+        .collect();
+    refused(&all, "more than 10000 files");
+}
+
+#[test]
 fn accessors_without_a_buffer() {
     let _turn = take_turn();
     let zeros = |count: usize| json!({ "componentType": 5126, "count": count, "type": "VEC3" });

@@ -9,6 +9,7 @@ pub mod atomic_file;
 pub mod black_body;
 #[doc(hidden)]
 pub mod choice;
+pub(crate) mod equal_area_square;
 #[doc(hidden)]
 pub mod file_identity;
 #[doc(hidden)]

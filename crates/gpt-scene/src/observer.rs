@@ -73,6 +73,26 @@ fn observer(wavelength: f64) -> [f64; 4] {
     std::array::from_fn(|column| OBSERVER[row][column] * (1.0 - part) + OBSERVER[row + 1][column] * part)
 }
 
+/// Straight lines between samples, each a wavelength and a value, 0 outside of them.
+pub fn between(samples: &[(f64, f64)], wavelength: f64) -> f64 {
+    let after = samples.partition_point(|(at, _)| *at < wavelength);
+    match (after.checked_sub(1).map(|before| samples[before]), samples.get(after)) {
+        (_, Some((at, value))) if *at == wavelength => *value,
+        (Some((from, low)), Some((to, high))) => low + (high - low) * (wavelength - from) / (to - from),
+        _ => 0.0,
+    }
+}
+
+/// Radiance of a black body in W·sr⁻¹·m⁻²·nm⁻¹.
+pub fn planck(nanometres: f64, kelvin: f64) -> f64 {
+    const PLANCK: f64 = 6.626_070_15e-34;
+    const LIGHT: f64 = 299_792_458.0;
+    const BOLTZMANN: f64 = 1.380_649e-23;
+    let wavelength = nanometres * 1e-9;
+    let exponent = PLANCK * LIGHT / (wavelength * BOLTZMANN * kelvin.max(1.0));
+    2e-9 * PLANCK * LIGHT * LIGHT / wavelength.powi(5) / exponent.exp_m1()
+}
+
 /// The colour of a spectrum that gives so much at each wavelength in nanometres. A surface that reflects everything is white to the last digit:
 /// the tables' own white is off by 0.2 % in blue.
 pub fn integrate(role: Role, spectrum: impl Fn(f64) -> f64) -> Spectrum {

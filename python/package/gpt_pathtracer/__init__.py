@@ -97,7 +97,7 @@ class Scene:
 
     @staticmethod
     def load(path: Path, *, strict: bool = False, definitions: Optional[Mapping[str, str]] = None) -> Scene:
-        """Reads a scene file (.toml), a model (.obj, .ply), a scene of another program (.gltf, .glb, .xml), or a built-in scene by its name.
+        """Reads a scene file (.toml), a model (.obj, .ply), a scene of another program (.gltf, .glb, .xml, .pbrt), or a built-in scene by its name.
 
         `strict` refuses substitutes for missing textures and materials, and imports that are not exact. `definitions` are values of a Mitsuba
         file's parameters.

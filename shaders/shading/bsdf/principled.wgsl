@@ -38,6 +38,17 @@ fn principled_sampling_weight(lobe: Lobe) -> f32 {
     return select(weight, weight + SHEEN_WEIGHT * max_component(p.sheen.color), HAS_SHEEN);
 }
 
+// The share of reflection by the diffuse layer in the sampling weight, about: that of samples which go in all directions above the surface.
+fn principled_broad_share(lobe: Lobe) -> f32 {
+    let p = principled_of(lobe, true);
+    var share = (1.0 - p.metallic) * (1.0 - p.transmission);
+    if HAS_PRINCIPLED_DIFFUSE_TRANSMISSION {
+        share *= 1.0 - p.diffuse_transmission;
+    }
+    let weight = principled_sampling_weight(lobe);
+    return select(0.0, min(share * max_component(p.base) / weight, 1.0), weight > 0.0);
+}
+
 fn evaluate_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
 #if PRINCIPLED_DISPERSION
     if (lobe.kind & DISPERSED) != 0u {

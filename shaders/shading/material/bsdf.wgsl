@@ -53,7 +53,7 @@ fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
 
 // The probability of lobes that scatter in all directions, whose samples a guide may replace.
 fn guided_probability(bsdf: Bsdf) -> f32 {
-    return select(0.0, 1.0, lobe_is_broad(bsdf.lobe));
+    return lobe_broad_share(bsdf.lobe);
 }
 
 // The share of light that it scatters, roughly.

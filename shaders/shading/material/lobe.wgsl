@@ -106,13 +106,6 @@ fn own_emission(material: u32, front: bool, uv: TextureCoordinates) -> Spectrum 
     return material_color(m2.xyz, tables[word + 3u].y, uv);
 }
 
-// The lobe scatters in all directions above the surface, mostly evenly.
-fn lobe_is_broad(lobe: Lobe) -> bool {
-    let kind = lobe_kind(lobe);
-    let is_rough_diffuse = kind == OREN_NAYAR || kind == QUALITATIVE_OREN_NAYAR || kind == ENERGY_PRESERVING_OREN_NAYAR;
-    return kind == DIFFUSE || is_rough_diffuse || kind == DUST || kind == PLASTIC || kind == ROUGH_PLASTIC;
-}
-
 fn lobe_kind(lobe: Lobe) -> u32 {
     return lobe.kind & 255u;
 }

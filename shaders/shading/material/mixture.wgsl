@@ -59,7 +59,7 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
         if HAS_MORE_LOBES && weighted.share > 0.0 {
             bsdf.total += weighted.share;
             bsdf.more_lobes = true;
-            bsdf.broad += select(0.0, weighted.share, lobe_is_broad(weighted.lobe));
+            bsdf.broad += weighted.share * lobe_broad_share(weighted.lobe);
             bsdf.non_delta_lobe = bsdf.non_delta_lobe || lobe_is_non_delta(weighted.lobe);
         }
     }

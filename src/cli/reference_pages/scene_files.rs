@@ -220,6 +220,11 @@ impl<'s> Page<'s> {
     }
 
     fn list(&mut self, value: &'s Value) -> String {
+        // Tables that have no name of their own are told by their keys.
+        if value["items"]["properties"].is_object() {
+            let keys: Vec<String> = entries(&value["items"], "properties").map(|(key, _)| format!("`{key}`")).collect();
+            return format!("a list of tables of {}", keys.join(", "));
+        }
         let item = self.words(&value["items"]);
         let item = item.trim_start_matches("a ");
         // A list of lists has the plural already.
@@ -229,8 +234,8 @@ impl<'s> Page<'s> {
             item.replacen("number", "numbers", 1).replacen("text", "texts", 1)
         };
         match value["maxItems"].as_u64() {
-            Some(count) if value["minItems"].as_u64().is_none_or(|least| least != count) => format!("up to {count} {items}"),
-            Some(count) => format!("{count} {items}"),
+            Some(count) if value["minItems"].as_u64() == Some(count) => format!("{count} {items}"),
+            Some(count) => format!("at most {count} {items}"),
             None => format!("a list of {items}{}", if value["items"]["type"] == "array" { " each" } else { "" }),
         }
     }

@@ -1,23 +1,13 @@
 //! The gain of a guide: error times cost with it and without it, as guided paths estimate both.
 
-use super::super::extent::{has_few_pixels, has_many_triangles};
 use super::cost::costs;
 use super::sum::{Rays, Sum};
-use super::tried::{InView, TrialResult, errors_of_guiding, tried_pixels};
+use super::tried::{InView, TrialResult, errors_of_guiding};
 use crate::reference::integrator::Integrator;
-use crate::scene::{FEW_PRIMITIVES, Scene};
+use crate::scene::FEW_PRIMITIVES;
 
-/// Why no guide is tried, if so.
-pub fn why_no_guide(scene: &Scene) -> Option<&'static str> {
-    if has_few_pixels(scene) {
-        return Some("learning takes too long for so few pixels");
-    }
-    has_many_triangles(scene).then_some("learning takes too long for so many triangles")
-}
-
-/// Error times cost with the guide that the integrator has, over that without one.
-pub fn loss_with_guide(integrator: &mut Integrator) -> f64 {
-    let pixels = tried_pixels(integrator.scene());
+/// Error times cost with the guide that the integrator has, over that without one, by so many pixels.
+pub fn loss_with_guide(integrator: &mut Integrator, pixels: u32) -> f64 {
     let (found, estimates) = TrialResult::unguided(integrator, pixels);
     let in_view = InView::new(integrator, pixels);
     let costs = costs(integrator.primitive_count() <= FEW_PRIMITIVES);
@@ -33,6 +23,7 @@ pub fn loss_with_guide(integrator: &mut Integrator) -> f64 {
 mod tests {
     use std::path::Path;
 
+    use super::super::super::budget::{Budget, Effort};
     use super::super::super::guide;
     use super::super::super::paths::{follow, pixel_of};
     use super::super::trial_path::{Record, TrialPath};
@@ -71,7 +62,7 @@ mod tests {
             load::load_toml_str(&ROOM.replace("WIDTH", width), "room", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
         change(&mut scene.render);
         let mut integrator = Integrator::new(&scene).expect("the reference renders it");
-        assert!(guide::train(&mut integrator).guide.is_some());
+        assert!(guide::train(&mut integrator, Budget::new(&scene, Effort::default())).guide.is_some());
         integrator
     }
 
@@ -120,12 +111,13 @@ mod tests {
     /// A guide pays where light comes through a gap, and not where an emitter lights what is seen.
     #[test]
     fn a_guide_pays_where_light_is_hard_to_find() {
-        let behind_a_wall = loss_with_guide(&mut guided("0.2", |_| ()));
+        let behind_a_wall = loss_with_guide(&mut guided("0.2", |_| ()), 256);
         let mut cornell = load::load(Some("cornell")).expect("it is built in");
         (cornell.film.size, cornell.render.guiding) = ([32, 32], Guiding::On);
+        let budget = Budget::new(&cornell, Effort::default());
         let mut cornell = Integrator::new(&cornell).expect("the reference renders it");
-        assert!(guide::train(&mut cornell).guide.is_some());
-        let cornell = loss_with_guide(&mut cornell);
+        assert!(guide::train(&mut cornell, budget).guide.is_some());
+        let cornell = loss_with_guide(&mut cornell, 256);
         assert!(behind_a_wall < 0.7 && cornell > 1.0, "{behind_a_wall} and {cornell}");
     }
 }

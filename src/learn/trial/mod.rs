@@ -5,8 +5,8 @@
 //! take, and whether points on rectangles and triangles are drawn by solid angle ([`LightSampling::Auto`]).
 //! All ways are tried with the same paths, so they differ by the noise of direct light alone. Random numbers
 //! are not those of the picture. Cost is counted, in rays, and not timed. So the choice depends on the scene,
-//! its settings and the size of its film: not on the seed, the number of samples, the device or the machine.
-//! Parts of a picture that are rendered on different devices therefore share one choice.
+//! its settings and the size of its film, not on its seed. How many pixels are tried, and whether any are, is a
+//! matter of the render's length ([`super::budget`]).
 
 mod cost;
 mod guiding;
@@ -17,7 +17,8 @@ mod unguided;
 
 use std::borrow::Cow;
 
-use super::extent::{has_few_pixels, has_many_triangles};
+use super::budget::{Budget, TOO_SHORT};
+use super::extent::{guide_may_pay, has_many_triangles};
 use super::light_cells::{self, LightsSettled};
 use super::reasons::Reasons;
 use super::work_of_path;
@@ -29,7 +30,7 @@ use crate::sampling::light_strategy::LightStrategy;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{Estimator, FEW_PRIMITIVES, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 use cost::costs;
-pub use guiding::{loss_with_guide, why_no_guide};
+pub use guiding::loss_with_guide;
 use sum::Rays;
 use tried::{InView, TrialResult, tried_pixels};
 
@@ -40,6 +41,8 @@ const MOST_DEPTH: u32 = 2;
 /// Numbers, each twice the one before, that are tried after the best one.
 const MOST_IN_VAIN: u32 = 2;
 
+/// Ways that a trial run tries, with what it looks at in view, where most of them are in vain.
+const USUAL_WAYS: f64 = 8.0;
 /// Work of the first way that is tried, at most, and work after which no further way is: so that a trial run
 /// takes seconds, whatever the scene.
 const MOST_WORK_OF_WAY: f64 = 8.0 * work::SECOND as f64;
@@ -55,6 +58,8 @@ pub struct Chosen<'a> {
     pub was_tried: bool,
     /// The scene made ready, where that was needed to find out.
     pub integrator: Option<Integrator>,
+    /// The budget, without what finding out took.
+    pub left: Budget,
 }
 
 /// Settings that the scene leaves open.
@@ -90,12 +95,12 @@ impl Open {
 ///
 /// # Errors
 /// [`RenderError`] for a scene that the reference cannot render.
-pub fn choose(scene: &Scene) -> Result<Chosen<'_>, RenderError> {
-    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene)?;
+pub fn choose(scene: &Scene, budget: Budget) -> Result<Chosen<'_>, RenderError> {
+    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene, budget)?;
     let mut chosen = match scene {
-        Cow::Borrowed(scene) => choose_the_rest(scene, integrator, is_undecided)?,
+        Cow::Borrowed(scene) => choose_the_rest(scene, budget, integrator, is_undecided)?,
         Cow::Owned(scene) => {
-            let chosen = choose_the_rest(&scene, integrator, is_undecided)?;
+            let chosen = choose_the_rest(&scene, budget, integrator, is_undecided)?;
             Chosen { scene: Cow::Owned(chosen.scene.into_owned()), ..chosen }
         }
     };
@@ -105,9 +110,15 @@ pub fn choose(scene: &Scene) -> Result<Chosen<'_>, RenderError> {
 }
 
 /// Chooses what is open after lights were tried; `has_cells`: cells of lights were learned and may be chosen.
-fn choose_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: bool) -> Result<Chosen<'_>, RenderError> {
+fn choose_the_rest(
+    scene: &Scene,
+    budget: Budget,
+    integrator: Option<Integrator>,
+    has_cells: bool,
+) -> Result<Chosen<'_>, RenderError> {
     let mut open = Open::of(&scene.render, has_cells);
-    let as_it_is = |integrator, because| Chosen { scene: Cow::Borrowed(scene), because, was_tried: false, integrator };
+    let as_it_is =
+        |integrator, because| Chosen { scene: Cow::Borrowed(scene), because, was_tried: false, integrator, left: budget };
     if !open.is_any() {
         return Ok(as_it_is(integrator, Reasons::default()));
     }
@@ -115,8 +126,17 @@ fn choose_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: boo
     if let Some(because) = not_worth_trying(scene) {
         return Ok(as_it_is(integrator, open.reasons(because)));
     }
-    let mut trial = TrialRun::new(scene, integrator)?;
-    let of_path = work_of_path::of_path(&trial.integrator);
+    let guide_is_wanted = guide_may_pay(scene);
+    let affordable = |of_path| tried_pixels(scene, budget.of_lights(guide_is_wanted).paths(of_path) / USUAL_WAYS);
+    if affordable(0.0).is_none() {
+        return Ok(as_it_is(integrator, open.reasons(TOO_SHORT)));
+    }
+    let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
+    let of_path = work_of_path::of_path(&integrator);
+    let Some(pixels) = affordable(of_path) else {
+        return Ok(as_it_is(Some(integrator), open.reasons(TOO_SHORT)));
+    };
+    let mut trial = TrialRun::new(scene, integrator, pixels);
     if of_path * TrialResult::paths(trial.pixels) > MOST_WORK_OF_WAY {
         let because = too_much_work("a trial run", of_path);
         let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };
@@ -129,11 +149,13 @@ fn choose_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: boo
     let because = try_ways(&mut trial, open);
     trial.integrator.set_light_choice(trial.settings.light_choice);
     trial.integrator.set_light_sampling(&trial.settings);
+    let left = budget.after(trial.spent as f64 / of_path.max(1.0), of_path);
     Ok(Chosen {
         scene: Cow::Owned(Scene { render: trial.settings, ..scene.clone() }),
         because,
         was_tried: true,
         integrator: Some(trial.integrator),
+        left,
     })
 }
 
@@ -152,9 +174,6 @@ fn not_worth_trying(scene: &Scene) -> Option<&'static str> {
     }
     if scene.render.max_depth == 1 {
         return Some("paths have no second edge");
-    }
-    if has_few_pixels(scene) {
-        return Some("a trial run takes too long for so few pixels");
     }
     has_many_triangles(scene).then_some("a trial run takes too long for so many triangles")
 }
@@ -249,13 +268,11 @@ struct TrialRun<'a> {
 }
 
 impl<'a> TrialRun<'a> {
-    fn new(scene: &'a Scene, integrator: Option<Integrator>) -> Result<Self, RenderError> {
-        let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
+    fn new(scene: &'a Scene, integrator: Integrator, pixels: u32) -> Self {
         let is_simple = integrator.primitive_count() <= FEW_PRIMITIVES;
         let costliest_outline = integrator.costliest_outline();
-        let pixels = tried_pixels(scene);
         let settings = scene.render.clone();
-        Ok(Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0, spent: 0 })
+        Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0, spent: 0 }
     }
 
     /// The better of two ways, both beside the simplest.

@@ -15,9 +15,10 @@ use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// One of so many pixels is tried, within these numbers.
-const ONE_OF_PIXELS: u64 = 1 << 10;
-const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
+/// Pixels that are tried at least: fewer tell too little. At most one of so many is, but for those, and so many in all.
+const FEWEST_PIXELS: u64 = 1 << 7;
+const ONE_OF_PIXELS: u64 = 1 << 8;
+const MOST_PIXELS: u64 = 1 << 10;
 /// Each pixel is tried by so many independent pictures of so many samples.
 const PICTURES: u32 = 4;
 const SAMPLES: u32 = 16;
@@ -33,10 +34,11 @@ const LEAST_ERROR: f64 = 0.25;
 /// Seed of the random numbers.
 const SEED: u32 = 0x7069_6c6f;
 
-/// How many pixels of the scene's film are tried.
-pub fn tried_pixels(scene: &Scene) -> u32 {
-    let [fewest, most] = TRIED_PIXELS;
-    (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32
+/// How many pixels of the scene's film are tried, by so many paths at most; None where these are too few.
+pub fn tried_pixels(scene: &Scene, paths: f64) -> Option<u32> {
+    let most = (pixel_count(scene) / ONE_OF_PIXELS).clamp(FEWEST_PIXELS, MOST_PIXELS);
+    let affordable = (paths / TrialResult::paths(1)) as u64;
+    (affordable >= FEWEST_PIXELS).then_some(affordable.min(most) as u32)
 }
 
 /// The result of one way of drawing from lights.

@@ -23,18 +23,19 @@ macro_rules! lobes {
         }
 
         impl Lobe {
-            /// The lobe scatters in all directions above the surface, mostly evenly.
-            pub fn is_broad(&self) -> bool {
-                matches!(
-                    self,
+            /// The share of the lobe's samples that go in all directions above the surface, mostly evenly, which a guide may replace.
+            pub fn broad_share(&self) -> f64 {
+                match self {
                     Self::Diffuse(_)
-                        | Self::OrenNayar(_)
-                        | Self::QualitativeOrenNayar(_)
-                        | Self::EnergyPreservingOrenNayar(_)
-                        | Self::Dust(_)
-                        | Self::Plastic(_)
-                        | Self::RoughPlastic(_)
-                )
+                    | Self::OrenNayar(_)
+                    | Self::QualitativeOrenNayar(_)
+                    | Self::EnergyPreservingOrenNayar(_)
+                    | Self::Dust(_)
+                    | Self::Plastic(_)
+                    | Self::RoughPlastic(_) => 1.0,
+                    Self::Principled(lobe) => lobe.layers.broad_share(),
+                    _ => 0.0,
+                }
             }
         }
 

@@ -122,7 +122,7 @@ impl Bsdf {
 
     /// The probability of lobes that scatter in all directions, whose samples a guide may replace.
     pub fn guided_probability(&self) -> f64 {
-        self.lobes.iter().filter(|weighted| weighted.lobe.is_broad()).map(|weighted| weighted.probability).sum()
+        self.lobes.iter().map(|weighted| weighted.lobe.broad_share() * weighted.probability).sum()
     }
 
     /// The non-delta lobes' f·|cosθi| and density.

@@ -380,6 +380,14 @@ impl PrincipledLayers {
         coat + (1.0 - coat) * (reflected + base * passed).max_component() + SHEEN_WEIGHT * self.sheen.color.max_component()
     }
 
+    /// The share of reflection by the diffuse layer in [`PrincipledLayers::sampling_weight`], about: that of samples which go in all
+    /// directions above the surface.
+    pub fn broad_share(&self) -> f64 {
+        let share = (1.0 - self.metallic) * (1.0 - self.transmission) * (1.0 - self.diffuse_transmission);
+        let weight = self.sampling_weight();
+        if weight > 0.0 { (share * self.base.max_component() / weight).min(1.0) } else { 0.0 }
+    }
+
     pub fn is_delta(&self) -> bool {
         let on = self.diffuse_transmission_color * self.diffuse_transmission;
         let strongest = (self.base * (1.0 - self.diffuse_transmission)).max(on).max_component();

@@ -4,6 +4,7 @@ mod bending;
 mod gltf;
 mod mitsuba;
 mod mtl;
+mod pbrt;
 mod shared_parts;
 mod within;
 

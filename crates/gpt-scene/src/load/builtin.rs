@@ -7,17 +7,17 @@ pub(super) const FOLDER: &str = "builtin:";
 
 /// Path within [`FOLDER`] and content of every file that built-in scenes name.
 const FILES: [(&str, &[u8]); 10] = [
-    ("models/teapot.obj", include_bytes!("../../../../scenes/models/teapot.obj")),
-    ("models/knot.obj", include_bytes!("../../../../scenes/models/knot.obj")),
+    ("models/teapot.obj", include_bytes!(concat!(env!("GPT_SCENES"), "/models/teapot.obj"))),
+    ("models/knot.obj", include_bytes!(concat!(env!("GPT_SCENES"), "/models/knot.obj"))),
     // scripts/textures makes them.
-    ("textures/brushed.png", include_bytes!("../../../../scenes/textures/brushed.png")),
-    ("textures/embers.hdr", include_bytes!("../../../../scenes/textures/embers.hdr")),
-    ("textures/evening.hdr", include_bytes!("../../../../scenes/textures/evening.hdr")),
-    ("textures/hammered.png", include_bytes!("../../../../scenes/textures/hammered.png")),
-    ("textures/harbour.png", include_bytes!("../../../../scenes/textures/harbour.png")),
-    ("textures/lamps.hdr", include_bytes!("../../../../scenes/textures/lamps.hdr")),
-    ("textures/leaf.png", include_bytes!("../../../../scenes/textures/leaf.png")),
-    ("textures/worn.png", include_bytes!("../../../../scenes/textures/worn.png")),
+    ("textures/brushed.png", include_bytes!(concat!(env!("GPT_SCENES"), "/textures/brushed.png"))),
+    ("textures/embers.hdr", include_bytes!(concat!(env!("GPT_SCENES"), "/textures/embers.hdr"))),
+    ("textures/evening.hdr", include_bytes!(concat!(env!("GPT_SCENES"), "/textures/evening.hdr"))),
+    ("textures/hammered.png", include_bytes!(concat!(env!("GPT_SCENES"), "/textures/hammered.png"))),
+    ("textures/harbour.png", include_bytes!(concat!(env!("GPT_SCENES"), "/textures/harbour.png"))),
+    ("textures/lamps.hdr", include_bytes!(concat!(env!("GPT_SCENES"), "/textures/lamps.hdr"))),
+    ("textures/leaf.png", include_bytes!(concat!(env!("GPT_SCENES"), "/textures/leaf.png"))),
+    ("textures/worn.png", include_bytes!(concat!(env!("GPT_SCENES"), "/textures/worn.png"))),
 ];
 
 /// True of files that are part of the program, and not on disk.

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 /// Formats that are read as scenes.
-pub const SCENES: &str = "scene files (.toml), models (.obj, .ply), glTF (.gltf, .glb) and Mitsuba scenes (.xml)";
+pub const SCENES: &str =
+    "scene files (.toml), models (.obj, .ply), glTF (.gltf, .glb), and scenes of Mitsuba (.xml) and pbrt (.pbrt)";
 /// The endings of models' names, as a sentence has them.
 pub const MODEL_ENDINGS: &str = ".obj, .ply or .ply.gz";
 
@@ -11,18 +12,15 @@ const BLENDER: &str = "Blender reads it and exports Wavefront OBJ, with its mate
 const BLENDER_USD: &str = "Blender imports USD and exports Wavefront OBJ (File > Export > Wavefront)";
 const ASSIMP: &str = "`assimp export MODEL model.obj` (assimp-utils) or Blender makes an OBJ file of it";
 const MESHLAB: &str = "MeshLab or `assimp export MODEL model.obj` (assimp-utils) makes an OBJ file of it";
-const BY_HAND: &str =
-    "its meshes have to be exported as OBJ; camera, lights and materials go into a scene file (docs/scene-format.md)";
 const MAGICK: &str = "ImageMagick makes a PNG of it: `magick PICTURE picture.png`";
 const PICTURE: &str = "a scene file names it, as an environment or a texture: see `gpt check --schema`";
 
 /// Ending, what such a file is, and what to do.
-const MODELS: [(&[&str], &str, &str); 6] = [
+const MODELS: [(&[&str], &str, &str); 5] = [
     (&["stl", "off"], "a model of bare triangles", MESHLAB),
     (&["usd", "usda", "usdc", "usdz"], "a USD scene", BLENDER_USD),
     (&["fbx", "dae", "3ds", "x3d", "lwo"], "a model", ASSIMP),
     (&["blend", "abc"], "a Blender or Alembic scene", BLENDER),
-    (&["pbrt"], "a pbrt scene", BY_HAND),
     (&["mtl"], "a material library, which an OBJ file names", "name the OBJ file"),
 ];
 const READ_PICTURES: (&[&str], &str, &str) =

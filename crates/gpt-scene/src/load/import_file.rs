@@ -16,7 +16,7 @@ use super::files::Files;
 use super::framing::{FIELD_OF_VIEW, GROUND, LIGHT, ModelStage, SKY};
 use super::import::{Description, camera_at};
 use super::place::{Origin, Place};
-use super::{gltf, mitsuba};
+use super::{gltf, mitsuba, pbrt};
 use crate::scene::{Plane, Rectangle};
 use crate::spectrum::Spectrum;
 
@@ -25,14 +25,18 @@ use crate::spectrum::Spectrum;
 pub enum ImportFormat {
     Mitsuba,
     Gltf,
+    Pbrt,
 }
 
 impl ImportFormat {
     /// By the ending of the file's name; None where it is no scene's.
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_string_lossy().to_ascii_lowercase().as_str() {
+        let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
+        match name.rsplit_once('.')?.1 {
             "xml" => Some(Self::Mitsuba),
             "gltf" | "glb" => Some(Self::Gltf),
+            "pbrt" => Some(Self::Pbrt),
+            "gz" if name.ends_with(".pbrt.gz") => Some(Self::Pbrt),
             _ => None,
         }
     }
@@ -58,10 +62,14 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
             mitsuba::load(files, path, &options)?
         }
         Some(ImportFormat::Gltf) => gltf::load(files, path, options.camera.as_deref(), options.variant.as_deref())?,
+        Some(ImportFormat::Pbrt) => {
+            refuse_choices(&name, options)?;
+            pbrt::load(files, path)?
+        }
         None => {
             return Err(SceneError::in_file(
                 name,
-                "cannot be imported: it is neither glTF (.gltf, .glb) nor a Mitsuba scene (.xml)",
+                "cannot be imported: it is neither glTF (.gltf, .glb) nor a scene of Mitsuba (.xml) or pbrt (.pbrt)",
             ));
         }
     };
@@ -74,6 +82,19 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
         ));
     }
     Ok(description)
+}
+
+/// A scene of pbrt has one camera, and neither parameters nor variants of materials.
+fn refuse_choices(name: &str, options: &LoadOptions) -> Result<(), SceneError> {
+    let refused = |what: String| Err(SceneError::in_file(name, what));
+    match (&options.camera, options.definitions.first(), &options.variant) {
+        (Some(camera), ..) => {
+            refused(format!("there is no camera `{camera}` to choose: a scene of pbrt has one, without a name"))
+        }
+        (_, Some((key, _)), _) => refused(format!("nothing in the scene is called ${key}: a scene of pbrt has no parameters")),
+        (.., Some(variant)) => refused(format!("there is no variant `{variant}`: a scene of pbrt has no variants of materials")),
+        (None, None, None) => Ok(()),
+    }
 }
 
 /// Adds what a scene lacks: a camera, and light.

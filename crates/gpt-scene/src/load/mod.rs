@@ -4,7 +4,7 @@
 //! - [`mod@file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common, `spelling` how their texts
 //!   say it, and `mends` what is wrong in them and replaced; `image_file`: textures and environment maps, and `environment_map`: what of those is
 //!   no lat-long map as it stands.
-//! - `mitsuba`, `gltf`: scenes of other programs, which become entries of scene files by means of `import`; `import_file` tells them apart.
+//! - `mitsuba`, `pbrt`, `gltf`: scenes of other programs, which become entries of scene files by means of `import`; `import_file` tells them apart.
 //! - `scene_file`: a scene file with what it imports.
 //! - `volume`: grids of media, from files of OpenVDB, NanoVDB and Mitsuba.
 //! - `place`: where mistakes are reported.
@@ -35,6 +35,7 @@ mod mends;
 mod mitsuba;
 mod model;
 mod obj;
+mod pbrt;
 pub(crate) mod place;
 mod ply;
 mod polygon;

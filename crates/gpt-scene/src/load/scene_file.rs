@@ -118,7 +118,7 @@ fn expand(document: &Document<'_>, file: &mut SceneFile, folder: &Path, access: 
 fn read(document: &Document<'_>, access: &Access, folder: &Path, entry: &ImportEntry) -> Result<Description, SceneError> {
     let path = folder.join(&entry.file.value);
     if ImportFormat::of(&path).is_none() {
-        let error = document.error(&entry.file.place, "an imported file ends in .gltf, .glb or .xml");
+        let error = document.error(&entry.file.place, "an imported file ends in .gltf, .glb, .xml or .pbrt");
         return Err(match formats::advice(&path) {
             Some((_, advice)) => error.with_help(advice),
             None => error,

@@ -25,7 +25,7 @@ pub enum SceneSource {
     File(PathBuf),
     /// A model (`.obj`, `.ply`), which is framed by itself.
     Model(PathBuf),
-    /// A scene of another program (`.gltf`, `.glb`, `.xml`).
+    /// A scene of another program (`.gltf`, `.glb`, `.xml`, `.pbrt`).
     Import(PathBuf),
 }
 
@@ -55,7 +55,7 @@ impl SceneSource {
         let names: Vec<&str> = builtin_names().collect();
         let help = file::did_you_mean(&name, &names).unwrap_or_default();
         Err(SceneError::in_file(show(path), what)
-            .with_help(format!("{help}; or a file that ends in .toml, .gltf, .glb, .xml, {}", formats::MODEL_ENDINGS)))
+            .with_help(format!("{help}; or a file that ends in .toml, .gltf, .glb, .xml, .pbrt, {}", formats::MODEL_ENDINGS)))
     }
 
     /// Reads the scene, and puts the environment that is asked for in the place of its own.
@@ -138,7 +138,7 @@ fn load_bytes(read: std::io::Result<Vec<u8>>, name: &str, folder: &Path, access:
     }
 }
 
-/// Reads the scene a person named: a `.toml` file, an `.obj` or `.ply` model, a glTF `.gltf` or `.glb`, a Mitsuba `.xml`, or a built-in scene; `cornell` where nothing is named.
+/// Reads the scene a person named: a `.toml` file, an `.obj` or `.ply` model, a glTF `.gltf` or `.glb`, a Mitsuba `.xml`, a `.pbrt`, or a built-in scene; `cornell` where nothing is named.
 pub fn load(written: Option<&str>) -> Result<Scene, SceneError> {
     load_with(written.map(OsStr::new), &LoadOptions::default())
 }

@@ -11,7 +11,7 @@
 pub mod coded;
 pub mod open_exr;
 mod pixels;
-mod primaries;
+pub mod primaries;
 pub mod radiance;
 
 use std::io::Read;

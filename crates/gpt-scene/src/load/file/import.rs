@@ -13,7 +13,7 @@ use super::value::Located;
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "Import")]
 pub struct ImportEntry {
-    /// Path of a `.gltf`, `.glb` or Mitsuba `.xml` file, relative to the scene file.
+    /// Path of a `.gltf`, `.glb`, Mitsuba `.xml` or `.pbrt` file, relative to the scene file.
     #[schemars(extend("pattern" = "\\.([gG][lL][tT][fF]|[gG][lL][bB]|[xX][mM][lL])$"))]
     pub file: Located<String>,
     /// The name of the file's camera that stands for `[camera]`; the first one where neither is written.

@@ -8,7 +8,7 @@ use super::syntax::SceneFile;
 
 /// The JSON Schema (2020-12) of scene files, as text that ends in a newline. Editors complete and check scene files with it.
 pub fn json_schema() -> &'static str {
-    include_str!("../../../../../scenes/scene.schema.json")
+    include_str!(concat!(env!("GPT_SCENES"), "/scene.schema.json"))
 }
 
 /// The schema, made from the types. A test compares the file with it; programs contain the text alone, which

@@ -168,6 +168,11 @@ impl Description {
         self.material_names.free(wanted)
     }
 
+    /// A name for a group that no other has.
+    pub fn free_group_name(&mut self, wanted: &str) -> String {
+        self.group_names.free(wanted)
+    }
+
     /// A name for a medium that no other has.
     pub fn free_medium_name(&mut self, wanted: &str) -> String {
         self.medium_names.free(wanted)

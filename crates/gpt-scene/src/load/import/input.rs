@@ -1,6 +1,7 @@
 //! Parameters of surfaces and lights.
 
-use crate::load::file::colour::{Colour, Scalar};
+use crate::load::file::colour::{ChannelName, Colour, Scalar};
+use crate::load::file::material::blend_weight::BlendWeightEntry;
 use crate::load::file::reference::TextureName;
 use crate::load::file::value::Rule;
 use crate::load::place::Place;
@@ -34,6 +35,20 @@ impl Input {
         match self {
             Self::Constant(colour) => Colour::constant(*colour),
             Self::Texture(name, factor) => Colour::of_texture(place.at(TextureName(name.clone())), *factor),
+        }
+    }
+
+    /// The parameter as the weight of a blend, within 0 and 1: the first channel of a texture counts.
+    ///
+    /// # Errors
+    /// A sentence about a number that is no share.
+    pub fn weight(&self, place: &Place) -> Result<BlendWeightEntry, String> {
+        match self {
+            Self::Constant(share) => BlendWeightEntry::constant(share.r().clamp(0.0, 1.0)),
+            Self::Texture(name, factor) => {
+                let factor = if factor.r() == 1.0 { 1.0 } else { factor.r().clamp(0.0, 1.0) };
+                BlendWeightEntry::channel(place.at(TextureName(name.clone())), ChannelName::R, factor)
+            }
         }
     }
 

@@ -25,8 +25,25 @@ pub fn smooth_by_index(mesh: &mut Mesh) {
     mesh.smooth = true;
 }
 
+/// Fronts become backs.
+pub fn turn_inside_out(mesh: &mut Mesh) {
+    mesh.faces.iter_mut().for_each(|face| face.swap(1, 2));
+    mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
+}
+
+/// Gives every face corners of its own, with these texture coordinates.
+pub fn barycentric_coordinates(mesh: &mut Mesh, of_corners: [Vec2; 3]) {
+    let corners: Vec<usize> = mesh.faces.iter().flatten().map(|corner| *corner as usize).collect();
+    mesh.positions = corners.iter().map(|corner| mesh.positions[*corner]).collect();
+    if !mesh.normals.is_empty() {
+        mesh.normals = corners.iter().map(|corner| mesh.normals[*corner]).collect();
+    }
+    mesh.uvs = of_corners.into_iter().cycle().take(corners.len()).collect();
+    mesh.faces = (0..mesh.faces.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
+}
+
 /// A sheet of vertices, `columns` by `rows` quads, that `point` places; with texture coordinates from 0 to 1.
-fn sheet(columns: u32, rows: u32, point: impl Fn(f64, f64) -> (DVec3, DVec3)) -> Mesh {
+pub fn sheet(columns: u32, rows: u32, point: impl Fn(f64, f64) -> (DVec3, DVec3)) -> Mesh {
     let mut mesh = Mesh { smooth: true, ..Mesh::default() };
     for row in 0..=rows {
         for column in 0..=columns {

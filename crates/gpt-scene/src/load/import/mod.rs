@@ -5,15 +5,26 @@
 
 mod attribute;
 mod description;
+mod enclosures;
+pub mod handedness;
 mod input;
 mod maps;
+pub mod measured_media;
 mod mesh;
 mod outline;
+mod relief;
 mod within;
 
 pub use crate::scene::ImportReport;
 pub use attribute::Blocks;
-pub use description::{Description, pays_as_instances};
+pub use description::{Description, mesh_of, pays_as_instances};
+pub use enclosures::{Enclosures, Sides};
 pub use input::Input;
 pub use maps::{camera_at, is_uniform, world_direction};
-pub use mesh::{cylinder, disk, grid_sphere, smooth_by_index, square, unit_cube};
+pub use mesh::{
+    barycentric_coordinates, cylinder, disk, grid_sphere, sheet, smooth_by_index, square, turn_inside_out, unit_cube,
+};
+pub use relief::Relief;
+
+/// Most shapes of a scene, instances counted.
+pub const MOST_SHAPES: usize = 1 << 20;

@@ -7,19 +7,9 @@ use super::plugin::{PropertyValue, SpectralCurve, error_at};
 use super::transform::numbers;
 use crate::load::error::SceneError;
 use crate::load::place::Origin;
-use crate::observer::from_xyz;
 pub use crate::observer::{Role, integrate};
+use crate::observer::{between, from_xyz, planck};
 use crate::spectrum::Spectrum;
-
-/// Straight lines between samples, 0 outside of them.
-pub fn between(samples: &[(f64, f64)], wavelength: f64) -> f64 {
-    let after = samples.partition_point(|(at, _)| *at < wavelength);
-    match (after.checked_sub(1).map(|before| samples[before]), samples.get(after)) {
-        (_, Some((at, value))) if *at == wavelength => *value,
-        (Some((from, low)), Some((to, high))) => low + (high - low) * (wavelength - from) / (to - from),
-        _ => 0.0,
-    }
-}
 
 impl SpectralCurve {
     /// The colour in linear Rec.709, without negative parts; a surface's is as bright as it says, which may be above 1.
@@ -33,16 +23,6 @@ impl SpectralCurve {
         };
         colour.max(Spectrum::BLACK)
     }
-}
-
-/// Radiance of a black body in W·sr⁻¹·m⁻²·nm⁻¹.
-fn planck(nanometres: f64, kelvin: f64) -> f64 {
-    const PLANCK: f64 = 6.626_070_15e-34;
-    const LIGHT: f64 = 299_792_458.0;
-    const BOLTZMANN: f64 = 1.380_649e-23;
-    let wavelength = nanometres * 1e-9;
-    let exponent = PLANCK * LIGHT / (wavelength * BOLTZMANN * kelvin.max(1.0));
-    2e-9 * PLANCK * LIGHT * LIGHT / wavelength.powi(5) / exponent.exp_m1()
 }
 
 fn hex(place: &Origin, text: &str) -> Result<Spectrum, SceneError> {

@@ -2,10 +2,8 @@
 
 use super::plugin::error_at;
 use crate::load::error::SceneError;
+pub use crate::load::import::MOST_SHAPES;
 use crate::load::place::Origin;
-
-/// Most shapes of a scene.
-pub const MOST_SHAPES: usize = 1 << 20;
 
 /// The error where there are more.
 pub fn too_many_shapes(place: &Origin) -> SceneError {

@@ -11,12 +11,12 @@ use rayon::prelude::*;
 use super::converter::{Converter, MeshKey, ReadMesh};
 use super::plugin::{Plugin, PropertyValue};
 use super::serialized;
-use super::shape::{Looks, turn_inside_out};
+use super::shape::Looks;
 use crate::load::error::{SceneError, show};
 use crate::load::file::shape::ShapeEntry;
 use crate::load::file::syntax::TextureEntry;
 use crate::load::files::Files;
-use crate::load::import::{Blocks, is_uniform, smooth_by_index};
+use crate::load::import::{Blocks, barycentric_coordinates, is_uniform, smooth_by_index, turn_inside_out};
 use crate::load::{obj, ply};
 use crate::scene::Mesh;
 
@@ -100,7 +100,7 @@ impl Converter<'_> {
             self.take_attributes(plugin, &path, &key, &mut mesh)?;
         }
         if textured && mesh.uvs.is_empty() {
-            barycentric_coordinates(&mut mesh);
+            barycentric_coordinates(&mut mesh, [Vec2::ZERO, Vec2::X, Vec2::Y]);
         }
         if !textured {
             mesh.uvs.clear();
@@ -223,17 +223,6 @@ fn smooth_once_placed(mesh: &mut Mesh, map: DMat3) {
     let (back, sign) = (map.transpose(), map.determinant().signum());
     let turned = |normal: &Vec3| (back * normal.as_dvec3() * sign).normalize_or(DVec3::Z).as_vec3();
     mesh.normals = placed.normals.iter().map(turned).collect();
-}
-
-/// Texture coordinates of what has none: on every face (0, 0), (1, 0) and (0, 1) in its corners.
-fn barycentric_coordinates(mesh: &mut Mesh) {
-    let corners: Vec<usize> = mesh.faces.iter().flatten().map(|corner| *corner as usize).collect();
-    mesh.positions = corners.iter().map(|corner| mesh.positions[*corner]).collect();
-    if !mesh.normals.is_empty() {
-        mesh.normals = corners.iter().map(|corner| mesh.normals[*corner]).collect();
-    }
-    mesh.uvs = [Vec2::ZERO, Vec2::X, Vec2::Y].into_iter().cycle().take(corners.len()).collect();
-    mesh.faces = (0..mesh.faces.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
 }
 
 /// Normals of no length are computed.

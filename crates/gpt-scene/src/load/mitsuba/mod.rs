@@ -10,7 +10,6 @@ mod colour;
 mod converter;
 mod document;
 mod emitter;
-mod handedness;
 mod input;
 mod limits;
 mod media;
@@ -44,7 +43,7 @@ use self::met_media::MetMedia;
 use self::plugin::Plugin;
 use super::error::SceneError;
 use super::files::Files;
-use super::import::Description;
+use super::import::{Description, handedness};
 use super::printable::short_list;
 
 /// The parts of a file to read.
@@ -126,7 +125,8 @@ impl Converter<'_> {
             }
         }
         self.finish_groups()?;
-        self.settle_media()?;
+        let enclosures = std::mem::take(&mut self.media.enclosures);
+        root.possible(enclosures.settle(&mut self.scene))?;
         self.report_clipped()
     }
 

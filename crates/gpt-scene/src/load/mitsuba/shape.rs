@@ -8,11 +8,14 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::converter::{Converter, StoredGroup};
 use super::emitter;
 use super::limits::{MOST_SHAPES, too_many_shapes};
+use super::met_media::MetMedia;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::file::shape::{self as shapes, ShapeEntry};
 use crate::load::file::value::Located;
-use crate::load::import::{Input, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube};
+use crate::load::import::{
+    Input, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, turn_inside_out, unit_cube,
+};
 use crate::load::memory;
 use crate::scene::Mesh;
 
@@ -72,11 +75,10 @@ impl Converter<'_> {
         }
         let copies = self.copies.get(&Rc::as_ptr(group)).copied().unwrap_or(1);
         let (before, triangles) = (self.scene.file.shape.len(), self.triangles);
-        self.enter_group(true);
+        self.media.in_group = true;
         self.placed_shape(group, DAffine3::IDENTITY, 1)?;
-        self.enter_group(false);
+        self.media.in_group = false;
         let shapes = self.scene.file.shape.split_off(before);
-        self.forget_boundaries(before);
         let gives_light = |shape: &ShapeEntry| shape.common().material.is_some_and(|name| self.scene.gives_light(&name.value));
         let is_plain = |shape: &Located<ShapeEntry>| matches!(shape.value, ShapeEntry::Mesh(_)) && !gives_light(&shape.value);
         let only_meshes = shapes.iter().all(is_plain);
@@ -135,12 +137,18 @@ impl Converter<'_> {
         };
         let material = self.surface_material(plugin, bsdf.as_ref(), light);
         self.attributes = None;
-        let boundary = self.boundary(plugin, bsdf.is_some())?;
-        let material = self.around_medium(plugin, material?, &boundary)?;
+        let sides = self.boundary(plugin, bsdf.is_some())?;
+        let mut material = material?;
+        let MetMedia { enclosures, in_group, .. } = &mut self.media;
+        if *in_group {
+            material = plugin.possible(enclosures.of_group(&mut self.scene, material, &sides, &plugin.at()))?;
+        }
         let common = shape.common_mut();
         *common.material = Some(plugin.at().at(material));
         *common.transform = self.transform(&map, plugin)?;
-        self.note_boundary(plugin, &shape, boundary);
+        if !self.media.in_group {
+            self.media.enclosures.note(&self.scene, &shape, sides, &plugin.at());
+        }
         if self.scene.file.shape.len() >= MOST_SHAPES {
             return Err(too_many_shapes(&plugin.place));
         }
@@ -342,10 +350,4 @@ fn evened(map: &DAffine3) -> DAffine3 {
     let y = map.matrix3.y_axis.reject_from_normalized(x).normalize();
     let z = x.cross(y) * map.matrix3.determinant().signum();
     DAffine3 { matrix3: DMat3::from_cols(x, y, z) * scale, translation: map.translation }
-}
-
-/// Fronts become backs.
-pub fn turn_inside_out(mesh: &mut Mesh) {
-    mesh.faces.iter_mut().for_each(|face| face.swap(1, 2));
-    mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
 }

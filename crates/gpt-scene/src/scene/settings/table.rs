@@ -133,7 +133,7 @@ settings! {
             study: false,
         }
         /// Draw directions also by a guide, which up to a million paths learn before the first sample.
-        guiding: Guiding = Guiding::Off => {
+        guiding: Guiding = Guiding::Auto => {
             values: Names(Guiding::NAMES),
             flag: "--guiding",
             placeholder: "GUIDING",
@@ -143,11 +143,20 @@ settings! {
         }
         /// Paths of the last of five rounds in which a guide is learned, each of which has twice as many as the one before. Fewer are quicker; more give a better guide.
         guiding_paths: NumberOrAuto = NumberOrAuto::Auto => {
-            values: WholeOr(FEWEST_GUIDING_PATHS, MOST_GUIDING_PATHS, auto("Eight for each pixel, from 16,384 to 524,288.")),
+            values: WholeOr(FEWEST_GUIDING_PATHS, MOST_GUIDING_PATHS, auto("With `guiding = \"on\"` eight for each pixel, from 16,384 to 524,288; with `auto` as many as a tenth of the render pays for.")),
             flag: "--guiding-paths",
             placeholder: "N",
             header: "gpt:guidingPaths",
             compared: true,
+            study: false,
+        }
+        /// Samples per pixel of the whole picture, by which it is measured out how long to learn before the first sample. Parts of one picture (`--first-sample`) state the same number, so that they learn alike.
+        expected_spp: NumberOrAuto = NumberOrAuto::Auto => {
+            values: WholeOr(1, MOST_SAMPLES, auto("The samples per pixel of this render.")),
+            flag: "--expected-spp",
+            placeholder: "N",
+            header: "gpt:expectedSpp",
+            compared: false,
             study: false,
         }
         /// The presence of light sources in the picture: seen by the camera, or hidden from it.

@@ -1,11 +1,11 @@
-//! Light from everywhere on a square, as pbrt has it: an octahedron's faces, mapped so that every texel covers the same solid angle (Clarberg 2008,
-//! "Fast equal-area mapping of the (hemi)sphere using SIMD").
+//! Light from everywhere on a square whose texels cover equal solid angles, as pbrt has it.
 
-use std::f64::consts::{FRAC_PI_4, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::equal_area_square::direction_at;
 use crate::load::file::writer::picture;
 use crate::scene::{Environment, ImageData, Texels};
 use crate::spectrum::Spectrum;
@@ -36,19 +36,6 @@ pub fn octahedral(side: u32, radiance: impl Fn(DVec3) -> Spectrum + Sync) -> Vec
     picture(&ImageData { width: side, height: side, texels: Texels::Float(texels), has_alpha: false })
 }
 
-/// The direction of a place in the unit square: +z is in its middle, −z in its corners. Within a quadrant, places as far from the middle by the sum
-/// of their coordinates have one height, and go evenly around.
-pub fn direction_at([x, y]: [f64; 2]) -> DVec3 {
-    let (right, down) = (2.0 * x - 1.0, 2.0 * y - 1.0);
-    let beyond = right.abs() + down.abs() - 1.0;
-    // The distance from the nearer pole, 1 at the equator.
-    let radius = 1.0 - beyond.abs();
-    let turn = if radius > 0.0 { (1.0 + (down.abs() - right.abs()) / radius) * FRAC_PI_4 } else { FRAC_PI_4 };
-    let across = radius * (2.0 - radius * radius).max(0.0).sqrt();
-    let height = (1.0 - radius * radius).copysign(-beyond);
-    DVec3::new((across * turn.cos()).copysign(right), (across * turn.sin()).copysign(down), height)
-}
-
 /// The radiance from a direction by a lat-long map.
 pub fn radiance(light: &Environment, map: &ImageData, direction: DVec3) -> Spectrum {
     let turns = light.rotation_degrees / 360.0;
@@ -70,48 +57,6 @@ pub fn radiance(light: &Environment, map: &ImageData, direction: DVec3) -> Spect
 mod tests {
     use super::*;
     use crate::scene::{EnvironmentRadiance, MapRows};
-
-    #[test]
-    fn every_texel_covers_the_same_solid_angle() {
-        // Moments of the sphere by the middles of a fine grid: those of the uniform distribution.
-        let side = 256;
-        let at = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
-        let directions: Vec<DVec3> = (0..side * side).map(|index| direction_at([at(index % side), at(index / side)])).collect();
-        let count = directions.len() as f64;
-        let mean: DVec3 = directions.iter().copied().sum::<DVec3>() / count;
-        let squares: DVec3 = directions.iter().map(|direction| *direction * *direction).sum::<DVec3>() / count;
-        let fourth: DVec3 = directions.iter().map(|direction| direction.powf(2.0) * direction.powf(2.0)).sum::<DVec3>() / count;
-        assert!(directions.iter().all(|direction| direction.is_normalized()));
-        assert!(
-            mean.length() < 1e-9 && (squares - 1.0 / 3.0).length() < 1e-4 && (fourth - 0.2).length() < 1e-4,
-            "{squares} {fourth}"
-        );
-        // The control: without the mapping of equal areas.
-        let plain = |[x, y]: [f64; 2]| crate::math::octahedron::direction_at([2.0 * x - 1.0, 2.0 * y - 1.0]);
-        let squares: f64 =
-            (0..side * side).map(|index| plain([at(index % side), at(index / side)]).z.powi(4)).sum::<f64>() / count;
-        assert!((squares - 0.2).abs() > 1e-3, "{squares}");
-    }
-
-    /// Corners, the middle and the middles of sides are where pbrt has them.
-    #[test]
-    fn axes_lie_where_they_should() {
-        let cases = [
-            ([0.5, 0.5], DVec3::Z),
-            ([1.0, 0.5], DVec3::X),
-            ([0.0, 0.5], DVec3::NEG_X),
-            ([0.5, 1.0], DVec3::Y),
-            ([0.5, 0.0], DVec3::NEG_Y),
-            ([0.0, 0.0], DVec3::NEG_Z),
-            ([1.0, 1.0], DVec3::NEG_Z),
-        ];
-        for (place, expected) in cases {
-            assert!(direction_at(place).distance(expected) < 1e-12, "{place:?} {}", direction_at(place));
-        }
-        // Half-way between two axes.
-        assert!(direction_at([0.75, 0.75]).distance(DVec3::new(1.0, 1.0, 0.0).normalize()) < 1e-12);
-        assert!(direction_at([0.6, 0.55]).z > 0.9 && direction_at([0.95, 0.95]).z < -0.9);
-    }
 
     #[test]
     fn maps_are_looked_up_where_they_show_a_direction() {

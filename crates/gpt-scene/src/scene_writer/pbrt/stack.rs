@@ -59,7 +59,8 @@ impl Writer<'_> {
                 let own = self.alphas(facets, place);
                 Some(match fresnel {
                     ConductorFresnel::Complex { eta, k } => {
-                        let (eta, k) = (*eta, *k);
+                        // Here they are over the coat's index, there over that of air.
+                        let (eta, k) = (*eta * ior, *k * ior);
                         Box::new(move |directive| {
                             let directive =
                                 directive.string("type", "coatedconductor").rgb("conductor.eta", eta).rgb("conductor.k", k);

@@ -99,7 +99,7 @@ impl MaterialKeys for Keys {
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
         let fresnel = match (&self.eta, &self.k, &self.preset, &self.reflectance) {
             (Some(eta), Some(k), None, None) => ConductorFresnel::Complex { eta: eta.value.0, k: k.value.0 },
-            (None, None, Some(metal), None) => metal_fresnel(metal.value),
+            (None, None, Some(metal), None) => metal.value.fresnel(),
             (None, None, None, Some(reflectance)) => ConductorFresnel::Reflectance(resolver.colour(&reflectance.value)?),
             _ => {
                 let message = "a conductor needs both `eta` and `k`, or `preset` alone, or `reflectance` alone";
@@ -145,22 +145,23 @@ impl MaterialKeys for Keys {
     }
 }
 
-/// Complex indices of refraction in linear Rec.709, averages of the measured spectra that renderers commonly share.
-fn metal_fresnel(metal: MetalEntry) -> ConductorFresnel {
-    let (eta, k) = match metal {
-        MetalEntry::Gold => ([0.143119, 0.374957, 1.44248], [3.98316, 2.38572, 1.60322]),
-        MetalEntry::Copper => ([0.200438, 0.924033, 1.10221], [3.91295, 2.45285, 2.14219]),
-        MetalEntry::Silver => ([0.155265, 0.116723, 0.138344], [4.82835, 3.12225, 2.14696]),
-        MetalEntry::Aluminium => ([1.65746, 0.880369, 0.521229], [9.22387, 6.26952, 4.837]),
-    };
-    ConductorFresnel::Complex { eta: Spectrum::from_rgb(eta), k: Spectrum::from_rgb(k) }
+impl MetalEntry {
+    /// Complex indices of refraction in linear Rec.709, averages of the measured spectra that renderers commonly share.
+    pub fn fresnel(self) -> ConductorFresnel {
+        let (eta, k) = match self {
+            Self::Gold => ([0.143119, 0.374957, 1.44248], [3.98316, 2.38572, 1.60322]),
+            Self::Copper => ([0.200438, 0.924033, 1.10221], [3.91295, 2.45285, 2.14219]),
+            Self::Silver => ([0.155265, 0.116723, 0.138344], [4.82835, 3.12225, 2.14696]),
+            Self::Aluminium => ([1.65746, 0.880369, 0.521229], [9.22387, 6.26952, 4.837]),
+        };
+        ConductorFresnel::Complex { eta: Spectrum::from_rgb(eta), k: Spectrum::from_rgb(k) }
+    }
 }
 
 /// The chemical symbol of the preset of a metal with this index of refraction.
 pub fn metal_symbol(eta: Spectrum, k: Spectrum) -> Option<&'static str> {
     let presets =
         [(MetalEntry::Gold, "Au"), (MetalEntry::Copper, "Cu"), (MetalEntry::Silver, "Ag"), (MetalEntry::Aluminium, "Al")];
-    let is_it =
-        |metal: MetalEntry| matches!(metal_fresnel(metal), ConductorFresnel::Complex { eta: e, k: i } if (e, i) == (eta, k));
+    let is_it = |metal: MetalEntry| matches!(metal.fresnel(), ConductorFresnel::Complex { eta: e, k: i } if (e, i) == (eta, k));
     presets.into_iter().find(|(metal, _)| is_it(*metal)).map(|(_, symbol)| symbol)
 }

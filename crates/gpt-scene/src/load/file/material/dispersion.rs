@@ -24,6 +24,16 @@ pub struct Sellmeier {
 
 impl NamesTextures for Sellmeier {}
 
+impl Sellmeier {
+    /// These coefficients, c in square micrometres.
+    ///
+    /// # Errors
+    /// A sentence about a number that is out of range.
+    pub fn of(b: [f64; 3], c: [f64; 3]) -> Result<Self, String> {
+        Ok(Self { b: Vector::of(b)?, c: Vector::of(c)? })
+    }
+}
+
 /// All keys of an index of refraction.
 pub struct IndexKeys<'a> {
     pub ior: Option<&'a Located<Checked<IndexOfRefraction>>>,

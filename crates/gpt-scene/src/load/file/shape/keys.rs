@@ -69,6 +69,7 @@ macro_rules! shape_keys {
                 $crate::load::file::shape::keys::CommonKeysMut {
                     material: &mut self.material,
                     transform: &mut self.transform,
+                    motion: &mut self.motion,
                     node: &mut self.node,
                 }
             }
@@ -122,6 +123,7 @@ pub struct CommonKeys<'a> {
 pub struct CommonKeysMut<'a> {
     pub material: &'a mut Option<Located<String>>,
     pub transform: &'a mut Option<Located<TransformEntry>>,
+    pub motion: &'a mut Option<Located<TransformEntry>>,
     pub node: &'a mut Option<Located<String>>,
 }
 

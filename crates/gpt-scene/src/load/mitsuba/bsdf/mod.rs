@@ -11,14 +11,14 @@ mod wrapped;
 
 use std::rc::Rc;
 
-use self::keyed::{Keyed, NestedBsdfs, Relief, black, grey, nothing};
+use self::keyed::{Keyed, NestedBsdfs, black, grey, nothing};
 use super::converter::Converter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::material::blend_weight::BlendWeightEntry;
 use crate::load::file::material::{MaterialEntry, blend, diffuse as diffuse_entry};
-use crate::load::import::Input;
+use crate::load::import::{Input, Relief};
 use crate::load::place::Place;
 use crate::spectrum::Spectrum;
 

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::dielectric::relative_ior;
-use super::keyed::{Keyed, with_relief};
+use super::keyed::Keyed;
 use crate::load::error::SceneError;
 use crate::load::file::material::blend_weight::{BlendWeightEntry, FresnelWeight};
 use crate::load::file::material::{MaterialEntry, blend, mirror, phong as phong_entry};
@@ -51,5 +51,5 @@ pub fn coating(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
     let ior = Some(plugin.possible(Checked::of(ior))?);
     let weight = BlendWeightEntry::Fresnel(FresnelWeight { ior, exact: true });
     let blend = MaterialEntry::from(blend::Keys::of([base, coat], weight, &place));
-    Ok((with_relief(blend, parts.relief), false))
+    Ok((parts.relief.given_to(blend), false))
 }

@@ -4,15 +4,11 @@ use std::rc::Rc;
 
 use super::keyed::Keyed;
 use crate::load::error::SceneError;
-use crate::load::file::colour::ChannelName;
-use crate::load::file::material::blend_weight::BlendWeightEntry;
 use crate::load::file::material::{MaterialEntry, principled as entry};
-use crate::load::file::reference::TextureName;
 use crate::load::file::value::Checked;
 use crate::load::import::Input;
 use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
-use crate::load::place::Place;
 
 const PARAMETERS: [&str; 9] = [
     "spec_tint",
@@ -79,17 +75,5 @@ fn clamped(input: &Input) -> Input {
     match input {
         Input::Constant(value) => Input::grey(value.r().clamp(0.0, 1.0)),
         texture => texture.clone(),
-    }
-}
-
-/// A blend's weight, which may come from a texture.
-pub fn weight(share: &Input, place: &Place) -> Result<BlendWeightEntry, String> {
-    match share {
-        Input::Constant(share) => BlendWeightEntry::constant(share.r().clamp(0.0, 1.0)),
-        // The first channel: masks are grey.
-        Input::Texture(name, factor) => {
-            let factor = if factor.r() == 1.0 { 1.0 } else { factor.r().clamp(0.0, 1.0) };
-            BlendWeightEntry::channel(place.at(TextureName(name.clone())), ChannelName::R, factor)
-        }
     }
 }

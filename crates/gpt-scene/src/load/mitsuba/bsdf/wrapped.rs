@@ -2,8 +2,7 @@
 
 use std::rc::Rc;
 
-use super::keyed::{Keyed, NestedBsdfs, black, nothing, with_relief};
-use super::principled::weight;
+use super::keyed::{Keyed, NestedBsdfs, black, nothing};
 use crate::load::error::SceneError;
 use crate::load::file::material::blend_weight::{BlendWeightEntry, NoKeys};
 use crate::load::file::material::{MaterialEntry, blend as blend_entry};
@@ -35,7 +34,7 @@ fn sides(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result
     let sides = <[String; 2]>::try_from(names);
     let sides = sides.map_err(|_| plugin.error(format!("a surface has two sides, and this one {count} bsdfs for them")))?;
     let front = BlendWeightEntry::Front(NoKeys {});
-    Ok(with_relief(MaterialEntry::from(blend_entry::Keys::of(sides, front, &plugin.at())), relief))
+    Ok(relief.given_to(MaterialEntry::from(blend_entry::Keys::of(sides, front, &plugin.at()))))
 }
 
 pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -51,7 +50,7 @@ pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Res
     let Some(part) = parts.names.into_iter().next() else { return Err(plugin.error("a mask needs a bsdf within")) };
     let behind = converter.extra(plugin, "what is behind", nothing());
     let blend = blended([part, behind], &opacity, plugin)?;
-    Ok((with_relief(blend, parts.relief), false))
+    Ok((parts.relief.given_to(blend), false))
 }
 
 pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -115,7 +114,7 @@ pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) 
 }
 
 fn blended(materials: [String; 2], share: &Input, plugin: &Plugin) -> Result<MaterialEntry, SceneError> {
-    let weight = plugin.possible(weight(share, &plugin.at()))?;
+    let weight = plugin.possible(share.weight(&plugin.at()))?;
     Ok(MaterialEntry::from(blend_entry::Keys::of(materials, weight, &plugin.at())))
 }
 
@@ -126,7 +125,7 @@ pub fn blend(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Re
     match &parts.names[..] {
         [first, second] => {
             let blend = blended([second.clone(), first.clone()], &share, plugin)?;
-            Ok((with_relief(blend, parts.relief), false))
+            Ok((parts.relief.given_to(blend), false))
         }
         others => Err(plugin.error(format!("a blend has two bsdfs within, and this one {}", others.len()))),
     }
@@ -158,7 +157,7 @@ pub fn mixture(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
         blend = Some(made);
     }
     match blend {
-        Some(blend) => Ok((with_relief(blend, relief), false)),
+        Some(blend) => Ok((relief.given_to(blend), false)),
         None => converter.within(plugin, depth),
     }
 }

@@ -2,13 +2,11 @@
 //!
 //! - here: how dense a medium is, `homogeneous` and `heterogeneous`.
 //! - `phase`: its phase function.
-//! - `boundary`: where it is, `interior` and `exterior` of shapes.
+//! - `boundary`: which of them a shape names as `interior` and `exterior`; `import::Enclosures` says what follows.
 //! - `volume`: values in space, `constvolume` and `gridvolume`.
-//! - `presets`: media by name, as versions before 2 had them.
 
 mod boundary;
 mod phase;
-mod presets;
 #[cfg(test)]
 mod tests;
 mod volume;
@@ -24,6 +22,7 @@ use crate::load::file::colour::Rgb;
 use crate::load::file::medium::MediumEntry;
 use crate::load::file::value::{Checked, Exactly, LARGEST, Located, NonNegative};
 use crate::load::file::volume::{OutsideName, VolumeEntry};
+use crate::load::import::measured_media;
 use crate::spectrum::Spectrum;
 
 impl Converter<'_> {
@@ -47,7 +46,7 @@ impl Converter<'_> {
         }
         let name = self.medium(&medium)?;
         let place = medium.at();
-        self.media.around_sensor = Some(medium);
+        self.media.enclosures.around_camera = Some(name.clone());
         Ok(Some(place.at(name)))
     }
 
@@ -78,27 +77,16 @@ impl Converter<'_> {
         Ok(name)
     }
 
-    /// The name of a medium that neither takes nor gives.
-    fn clear_medium(&mut self, plugin: &Plugin) -> String {
-        if let Some(known) = &self.media.clear {
-            return known.clone();
-        }
-        let name = self.scene.free_medium_name("(empty)");
-        self.scene.file.medium.push(MediumEntry { name: plugin.at().at(name.clone()), ..MediumEntry::default() });
-        self.media.clear = Some(name.clone());
-        name
-    }
-
     /// A medium that is the same everywhere: by what is scattered and absorbed, or by what is lost and the share of it that is scattered. That share
     /// may differ from place to place.
     fn homogeneous(&mut self, plugin: &Rc<Plugin>) -> Result<MediumEntry, SceneError> {
         let scale = self.plain_number(plugin, "scale", 1.0)?;
         if let Some(name) = plugin.text("material")? {
             // They are given per millimetre.
-            let [absorption, scattering] = presets::coefficients(name).ok_or_else(|| {
+            let [absorption, scattering] = measured_media::coefficients(name).ok_or_else(|| {
                 plugin
                     .error(format!("nothing is known of the medium `{name}`"))
-                    .with_help(format!("there are {}", presets::names().join(", ")))
+                    .with_help(format!("there are {}", measured_media::names().join(", ")))
             })?;
             return of_coefficients(plugin, absorption * scale, scattering * scale);
         }

@@ -1,4 +1,4 @@
-//! Media by name, `material` of versions before 2; version 3 has none.
+//! Media by the names that they have in Mitsuba before version 2 and in pbrt.
 //!
 //! Measured by Jensen, Marschner, Levoy and Hanrahan, "A Practical Model for Subsurface Light Transport" (2001), figure 5: reduced scattering, which goes
 //! with an isotropic phase function, and absorption, in red, green and blue, per millimetre.
