@@ -183,7 +183,7 @@ impl Converter<'_> {
         };
         self.border(entity);
         let emission = emission_grid.is_some().then(|| rgb(entity, Spectrum::grey(strength))).transpose()?;
-        if !(scale > 0.0) {
+        if scale.is_nan() || scale <= 0.0 {
             return Ok(MediumEntry::default());
         }
         Ok(MediumEntry {
@@ -306,7 +306,7 @@ struct Glow {
 impl Glow {
     fn at(&self, value: f64) -> Spectrum {
         let kelvin = (value - self.offset) * self.scale;
-        if !(kelvin > COLDEST) {
+        if kelvin.is_nan() || kelvin <= COLDEST {
             return Spectrum::BLACK;
         }
         let most = planck(2_897_772.1 / kelvin, kelvin);

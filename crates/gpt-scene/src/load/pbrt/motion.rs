@@ -65,7 +65,7 @@ fn steps(factors: DVec3, rotation: DQuat, way: DVec3, place: &Place) -> Result<V
 
 /// The rotation and the stretch whose product a map is (Higham 1986); None of one that mirrors.
 fn polar(map: DMat3) -> Option<(DQuat, DMat3)> {
-    if !(map.determinant() > 0.0) {
+    if map.determinant().is_nan() || map.determinant() <= 0.0 {
         return None;
     }
     let mut rotation = map;
