@@ -117,7 +117,7 @@ fn mean(scene: &Scene) -> [[f64; 2]; 3] {
         let options = RenderOptions {
             device: DeviceChoice::Cpu,
             size: Some([24, 18]),
-            samples: Some(16),
+            samples: Some(64),
             seed: Some(seed),
             ..RenderOptions::default()
         };

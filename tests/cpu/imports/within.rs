@@ -84,7 +84,7 @@ fn the_same_file_may_come_twice() {
 fn what_is_wrong_is_told_where_it_stands() {
     for (import, said) in [
         ("file = \"absent.glb\"", "there is no file"),
-        ("file = \"scene.toml\"", ".gltf, .glb or .xml"),
+        ("file = \"scene.toml\"", ".gltf, .glb, .xml or .pbrt"),
         ("file = 3", "expected"),
         ("file = \"a.glb\"\nfoo = 1", "foo"),
         ("file = \"a.glb\"\ntransform = [{ scale = 0 }]", "scale"),

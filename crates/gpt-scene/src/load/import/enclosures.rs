@@ -8,7 +8,7 @@ use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
-use super::Description;
+use super::description::Description;
 use crate::load::file::material::blend_weight::{BlendWeightEntry, FresnelWeight};
 use crate::load::file::material::{MaterialEntry, blend, mirror, pass};
 use crate::load::file::medium::MediumEntry;
@@ -116,7 +116,7 @@ impl Enclosures {
         }
         let (material, medium) = &key;
         let Some(mut entry) = find(scene, material).cloned() else { return Ok(material.clone()) };
-        // What a body holds by itself is not displaced.
+        // A body keeps what it holds by itself.
         if entry.common().interior.is_some() {
             return Ok(material.clone());
         }
@@ -236,7 +236,7 @@ fn is_crossed(scene: &Description, name: &str) -> bool {
         match find(scene, name).filter(|_| seen.insert(name)) {
             Some(MaterialEntry::Glass(_) | MaterialEntry::RoughGlass(_) | MaterialEntry::Pass(_)) => return true,
             Some(MaterialEntry::Principled(keys)) if keys.transmission.is_some() => return true,
-            // What is below the lowest interface is on the other side.
+            // The other side is below the lowest interface.
             Some(MaterialEntry::Layered(keys)) => to_visit.extend(keys.interfaces.0.last().map(|part| part.value.as_str())),
             Some(entry) => to_visit.extend(entry.parts().iter().map(|part| part.value.as_str())),
             None => {}

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use glam::DAffine3;
 
 use super::graphics_state::{Maps, MaterialName};
-use super::infinite::InfiniteLights;
+use super::infinite_lights::InfiniteLights;
 use super::named_spectra::NamedMetal;
 use super::parameter::Entity;
 use super::text::Spot;
-use super::texture::TextureNode;
+use super::texture_node::TextureNode;
 use super::world::World;
 use crate::load::error::SceneError;
 use crate::load::file::shape::TransformEntry;
@@ -40,7 +40,7 @@ pub struct Converter<'a> {
     pub folder: PathBuf,
     pub world: Rc<World>,
     pub scene: Description,
-    /// What all light is multiplied by: the film's exposure.
+    /// The film's exposure, by which all light is multiplied.
     pub exposure: f64,
     /// Names of materials as they are without light, openings and media.
     pub materials: HashMap<MaterialName, String>,
@@ -68,7 +68,7 @@ pub struct Converter<'a> {
     reported: HashSet<*const Entity>,
 }
 
-/// What of a material decides how its shapes are made.
+/// The part of a material that decides how its shapes are made.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct MaterialLooks {
     pub is_textured: bool,

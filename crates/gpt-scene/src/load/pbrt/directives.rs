@@ -543,7 +543,7 @@ impl<'a> Reader<'a> {
             return Err(spot.error(format!("the scene includes more than {MOST_INCLUDES} files")));
         }
         let source = self.source(&path).map_err(|error| error.with_help(format!("{spot} names it")))?;
-        // What an imported file says of the state ends with it.
+        // The state that an imported file sets ends with it.
         let state = (directive == "Import").then(|| self.state.clone());
         self.file(&path, source)?;
         self.state = state.unwrap_or_else(|| std::mem::take(&mut self.state));

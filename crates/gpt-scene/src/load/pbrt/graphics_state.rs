@@ -1,4 +1,4 @@
-//! What the directives before a shape say of it: transforms, its material, its light, and the media on both of its sides.
+//! The state that directives before a shape set for it: transforms, its material, its light, and the media on both of its sides.
 
 use std::rc::Rc;
 
@@ -26,7 +26,7 @@ pub const TARGETS: [&str; 5] = ["shape", "light", "material", "medium", "texture
 #[derive(Debug, Clone)]
 pub struct GraphicsState {
     pub maps: Maps,
-    /// Of which of the two transforms what follows changes.
+    /// The ones of the two transforms that the following directives change.
     pub active: [bool; 2],
     pub reverses: bool,
     pub material: MaterialName,

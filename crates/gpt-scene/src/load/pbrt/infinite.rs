@@ -4,13 +4,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 use super::converter::Converter;
+use super::infinite_lights::{InfiniteLights, InfiniteMap};
 use super::parameter::{Entity, Kind};
 use super::spectrum::SpectrumKind;
-use super::text::Spot;
 use crate::equal_area_square::{direction_at, place_of};
 use crate::load::error::SceneError;
 use crate::load::file::light::{LightEntry, environment};
@@ -24,21 +24,6 @@ const MOST_ROWS: u32 = 2048;
 const FEWEST_ROWS: u32 = 16;
 /// Places along each side of a texel at which pictures are looked up.
 const LOOKUPS: usize = 3;
-
-/// The lights so far.
-#[derive(Default)]
-pub struct InfiniteLights {
-    constant: Spectrum,
-    maps: Vec<InfiniteMap>,
-    spot: Option<Spot>,
-}
-
-struct InfiniteMap {
-    image: ImageData,
-    /// From the world's directions to the light's.
-    to_light: DMat3,
-    scale: f64,
-}
 
 impl Converter<'_> {
     pub(super) fn infinite_light(&mut self, entity: &Entity, map: &DAffine3) -> Result<(), SceneError> {
@@ -184,6 +169,8 @@ fn illuminance_of(image: &ImageData) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use glam::DMat3;
+
     use super::*;
 
     fn image(side: u32, radiance: impl Fn(DVec3) -> Spectrum) -> ImageData {

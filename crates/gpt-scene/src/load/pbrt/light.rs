@@ -54,7 +54,7 @@ impl Converter<'_> {
         Ok(colour * self.factor(entity)?)
     }
 
-    /// What all light of an entity is multiplied by.
+    /// The factor of all light of an entity.
     pub fn factor(&self, entity: &Entity) -> Result<f64, SceneError> {
         let scale = entity.float_or("scale", 1.0)?;
         if !(scale >= 0.0 && scale.is_finite()) {

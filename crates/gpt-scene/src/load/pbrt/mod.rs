@@ -10,6 +10,7 @@ mod converter;
 mod directives;
 mod graphics_state;
 mod infinite;
+mod infinite_lights;
 mod instance;
 mod lexer;
 mod light;
@@ -25,6 +26,7 @@ mod tests;
 mod text;
 mod texture;
 mod texture_entry;
+mod texture_node;
 mod world;
 
 use std::path::Path;

@@ -173,7 +173,7 @@ pub fn number(word: &str) -> Option<f64> {
     Some(value.value)
 }
 
-/// What a directive says: its type, as `sphere`, and its parameters.
+/// The content of a directive: its type, as `sphere`, and its parameters.
 #[derive(Debug)]
 pub struct Entity {
     /// The directive, as `Shape`.
@@ -199,7 +199,7 @@ impl Entity {
         Self { directive, name, spot, own, around, space }
     }
 
-    /// The same directive of another type.
+    /// A copy of the directive with another type.
     pub fn of_type(self, name: String) -> Self {
         Self { name, ..self }
     }
@@ -222,7 +222,7 @@ impl Entity {
     pub fn find(&self, name: &str, kinds: &[Kind]) -> Option<&Rc<Parameter>> {
         let fits = |parameter: &&Rc<Parameter>| parameter.name == name && kinds.contains(&parameter.kind);
         let found = self.own.iter().rev().chain(self.around.iter().rev()).find(fits)?;
-        // Those that it hides have no effect either, and are no mistakes.
+        // Parameters that it hides have no effect either, and are no mistakes.
         self.own.iter().filter(|other| other.name == name && other.kind == found.kind).for_each(|other| other.used.set(true));
         found.used.set(true);
         Some(found)

@@ -13,7 +13,7 @@ use crate::load::files::MOST_LIBRARY_BYTES;
 use crate::observer::{Role, between, integrate, planck};
 use crate::spectrum::Spectrum;
 
-/// What a spectrum says.
+/// The content of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpectrumKind {
     /// A share of light, from 0 to 1.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::converter::Converter;
 use super::text::Spot;
-use super::texture::{ImageLeaf, MOST_PARTS, NodeKind, Placement, TextureNode};
+use super::texture_node::{ImageLeaf, MOST_PARTS, NodeKind, Placement, TextureNode};
 use crate::load::error::{SceneError, show};
 use crate::load::file::colour::Rgb;
 use crate::load::file::reference::{FileOr, TextureName};

@@ -1,6 +1,6 @@
 //! Surfaces below a dielectric coat: stacks of layers, which look alike from both sides.
 //!
-//! What is between a coat and its base loses the share exp(−thickness / cosine) of light there, whatever it scatters of that.
+//! The slab between a coat and its base takes light there: exp(−thickness / cosine) of it is left, whatever the slab scatters.
 
 use std::rc::Rc;
 
@@ -61,7 +61,7 @@ impl Converter<'_> {
         Ok(MaterialEntry::from(Keys { interfaces, slabs, mirrored: Some(true), ..Default::default() }))
     }
 
-    /// What is between the coat and the base; None where that takes no light.
+    /// The slab between the coat and the base; None if it takes no light.
     fn slab(&mut self, entity: &Rc<Entity>, wanted: &str) -> Result<Option<SlabEntry>, SceneError> {
         let place = entity.spot.place();
         let albedo = self.plain_colour(entity, "albedo", SpectrumKind::Albedo)?.unwrap_or(Spectrum::BLACK);

@@ -8,8 +8,8 @@ use crate::load::import::Relief;
 use crate::load::pbrt::converter::Converter;
 use crate::load::pbrt::graphics_state::MaterialName;
 use crate::load::pbrt::parameter::{Entity, Kind};
-use crate::load::pbrt::texture::TextureNode;
 use crate::load::pbrt::texture_entry::Use;
+use crate::load::pbrt::texture_node::TextureNode;
 use crate::spectrum::Spectrum;
 
 impl Converter<'_> {

@@ -4,10 +4,10 @@ use std::rc::Rc;
 
 use crate::load::error::SceneError;
 use crate::load::file::material::MaterialEntry;
+use crate::load::gltf::single_scattering_albedo;
 use crate::load::pbrt::converter::Converter;
 use crate::load::pbrt::parameter::Entity;
 use crate::load::pbrt::spectrum::SpectrumKind;
-use crate::load::single_scattering_albedo;
 use crate::spectrum::Spectrum;
 
 impl Converter<'_> {

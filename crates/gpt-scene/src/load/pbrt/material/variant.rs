@@ -1,4 +1,4 @@
-//! What shapes add to their materials: light, and openings.
+//! Additions of shapes to their materials: light, and openings.
 
 use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;

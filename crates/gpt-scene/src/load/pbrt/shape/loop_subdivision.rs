@@ -46,7 +46,7 @@ impl Converter<'_> {
         let mut rings = rings;
         for _ in 0..levels {
             surface = surface.divided(&rings);
-            // What is divided is as sound as what it was made of.
+            // A division is as sound as the mesh that it was made of.
             let Some(next) = surface.rings() else { return Ok(None) };
             rings = next;
         }
@@ -151,7 +151,7 @@ impl Surface {
         self.weighted(vertex, ring, share, 1.0 / 8.0)
     }
 
-    /// Where a vertex is after infinitely many levels.
+    /// The place of a vertex after infinitely many levels.
     fn limit(&self, vertex: usize, ring: &Ring) -> DVec3 {
         let valence = ring.around.len();
         let share = 1.0 / (valence as f64 + 3.0 / (8.0 * Self::share(valence)));

@@ -3,6 +3,7 @@
 mod bilinear;
 mod loop_subdivision;
 mod mesh;
+mod orientation;
 mod quadric;
 
 use std::sync::Arc;
@@ -27,7 +28,7 @@ struct Needs {
     looks: MaterialLooks,
     /// Its front is turned, and that is seen.
     flips: bool,
-    /// It has to be made of triangles.
+    /// The shape has to be made of triangles.
     as_mesh: bool,
 }
 
@@ -215,7 +216,7 @@ impl Converter<'_> {
 
 /// Turns the front of a shape, of which no more than its two sides is seen, away from what it encloses. True where it was turned.
 fn turn_outwards(record: &ShapeRecord, entry: &mut ShapeEntry) -> bool {
-    let Some(mesh) = mesh_of(entry) else { return !matches!(entry, ShapeEntry::Disk(_)) && quadric::is_flipped(record) };
+    let Some(mesh) = mesh_of(entry) else { return !matches!(entry, ShapeEntry::Disk(_)) && orientation::is_flipped(record) };
     let corner = |index: u32| mesh.positions[index as usize].as_dvec3();
     let volume = |face: &[u32; 3]| {
         let [a, b, c] = face.map(corner);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::orientation::is_flipped;
 use super::{Geometry, Needs};
 use crate::load::error::SceneError;
 use crate::load::file::shape::{ShapeEntry, cylinder, disk, sphere};
@@ -152,14 +153,9 @@ impl Converter<'_> {
         let smooth = if mesh.smooth { " with interpolated normals" } else { "" };
         self.approximate(spot, part.what, format!("{} triangles{smooth}", mesh.faces.len()));
         let geometry = self.placed_mesh(record, mesh)?;
-        // It is one shape there, whatever triangles it is made of here.
+        // pbrt has one shape, whatever triangles it is made of here.
         Ok(Geometry { map, areas: vec![area], ..geometry })
     }
-}
-
-/// The front of a round shape is turned by `ReverseOrientation` there, and by transforms that mirror.
-pub(super) fn is_flipped(record: &ShapeRecord) -> bool {
-    record.reverses != (record.maps[0].matrix3.determinant() < 0.0)
 }
 
 fn columns(turn: f64) -> u32 {

@@ -69,7 +69,7 @@ fn metals_are_told_by_name_by_numbers_and_by_reflectance() {
         constants("\"rgb eta\" [ .2 .9 1.1 ] \"rgb k\" [ 4 3 2 ]"),
         [[0.2, 0.9, 1.1], [4.0, 3.0, 2.0]].map(Spectrum::from_rgb)
     );
-    // Of two metals, each has its part.
+    // Each of two metals has its part.
     let mixed = constants("\"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Ag-k\"");
     assert!(mixed[0] == gold[0] && (mixed[1].r() - 4.82835).abs() < 1e-9);
     let [eta, k] = constants("\"rgb reflectance\" [ .9 .5 0 ]");

@@ -1,4 +1,4 @@
-//! What is wrong is told where it is, and nothing that is wrong ends the program.
+//! Mistakes are told with their places, and none ends the program.
 
 use std::io::Write as _;
 
@@ -196,7 +196,7 @@ fn a_scene_of_everything_is_read() {
     assert!(scene.shapes.len() >= 8 && scene.media.len() >= 3 && scene.lights.len() == 4, "{}", scene.shapes.len());
 }
 
-/// What ends early, or has other bytes in it, is read or refused: nothing hangs, and nothing ends the program.
+/// Files that end early, or have other bytes in them, are read or refused: nothing hangs, and nothing ends the program.
 #[test]
 fn damaged_scenes_are_read_or_refused() {
     let whole = SCENE.replace("MORE", EVERYTHING);

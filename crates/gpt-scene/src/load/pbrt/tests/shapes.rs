@@ -225,7 +225,7 @@ fn media_fill_the_bodies_that_name_them() {
     assert_eq!((interior(&scene, last(&scene)).as_deref(), report(&scene).as_str()), (Some("fog"), ""));
     let fog = &scene.media[0];
     assert_eq!((fog.absorption.to_rgb(), fog.scattering.to_rgb()), ([0.2, 0.4, 0.6], [2.0, 4.0, 6.0]));
-    // What light does not go through is not filled with nothing.
+    // A body that light does not go through is not filled with nothing.
     let wall = valid(&format!("{FOG}MediumInterface \"\" \"fog\"\nShape \"sphere\""));
     assert_eq!(interior(&wall, last(&wall)), None);
     assert!(report(&wall).contains("exterior medium of a shape"), "{}", report(&wall));

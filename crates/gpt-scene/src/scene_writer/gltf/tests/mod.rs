@@ -130,7 +130,7 @@ fn cameras_come_back() {
     assert_eq!(round_trip(&shifted).lost, ["shift of the camera's window"]);
     // A calibrated camera is a perspective one there; a panorama cannot be said.
     let half = (0.5 * 40_f64.to_radians()).tan();
-    let focal = 0.5 * 256.0 / half;
+    let focal = 0.5 * 200.0 / half;
     let lens = format!("projection = \"brown_conrady\"\nfocal = [{focal}, {focal}]\n");
     let calibrated = load_toml_str(&(HEAD.replace("vfov = 40\n", &lens) + &square + POINT), "test.toml", Path::new("")).unwrap();
     let trip = round_trip(&calibrated);

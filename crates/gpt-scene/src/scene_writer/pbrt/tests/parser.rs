@@ -77,7 +77,7 @@ fn tokens(text: &str) -> Result<Vec<Token>, String> {
 }
 
 /// Directives with the texts and numbers behind their names, and whether parameters follow.
-const DIRECTIVES: [(&str, usize, usize, bool); 25] = [
+const DIRECTIVES: [(&str, usize, usize, bool); 26] = [
     ("Identity", 0, 0, false),
     ("Integrator", 1, 0, true),
     ("Sampler", 1, 0, true),
@@ -86,6 +86,7 @@ const DIRECTIVES: [(&str, usize, usize, bool); 25] = [
     ("Camera", 1, 0, true),
     ("Scale", 0, 3, false),
     ("LookAt", 0, 9, false),
+    ("Rotate", 0, 4, false),
     ("Transform", 0, 16, false),
     ("WorldBegin", 0, 0, false),
     ("AttributeBegin", 0, 0, false),
