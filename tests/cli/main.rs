@@ -157,7 +157,10 @@ fn stats_have_the_keys_that_other_programs_rely_on() {
     assert_eq!(stats["scene"], "scene");
     assert_eq!(stats["device"], "CPU reference");
     assert!(stats["hierarchy"].is_null());
-    assert_eq!((&stats["decisions"], &stats["compiled_in"]), (&serde_json::json!([]), &serde_json::json!([])));
+    let unguided = serde_json::json!([{
+        "about": "directions", "choice": "by BSDFs alone", "because": "the render is too short to learn for",
+    }]);
+    assert_eq!((&stats["decisions"], &stats["compiled_in"]), (&unguided, &serde_json::json!([])));
     assert_eq!((&stats["width"], &stats["height"], &stats["spp"]), (&10.into(), &6.into(), &4.into()));
     assert_eq!(stats["samples"], 240);
     assert_eq!(stats["seed"], 9);
@@ -376,7 +379,7 @@ fn check_says_what_is_in_the_scene() {
     for (scene, because) in [
         ("veach-mis", "cells over 5 lights (a trial run found"),
         ("workshop", "light samples  2 at each of the first 2 surfaces (a trial run found"),
-        ("scene.toml", "light samples  1 (a trial run takes too long"),
+        ("scene.toml", "light samples  1 (the render is too short to learn for"),
     ] {
         let report = text(&place.run(&format!("check {scene} --plan")).stdout);
         assert!(report.contains(because), "`{because}` is not in\n{report}");

@@ -15,10 +15,11 @@ use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// Pixels that are tried at least: fewer tell too little. At most one of so many is, but for those, and so many in all.
+/// Pixels that are tried at least: fewer tell too little.
 const FEWEST_PIXELS: u64 = 1 << 7;
-const ONE_OF_PIXELS: u64 = 1 << 8;
-const MOST_PIXELS: u64 = 1 << 10;
+/// One of so many pixels is tried, within these numbers, where the render is long enough.
+const ONE_OF_PIXELS: u64 = 1 << 10;
+const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
 /// Each pixel is tried by so many independent pictures of so many samples.
 const PICTURES: u32 = 4;
 const SAMPLES: u32 = 16;
@@ -36,7 +37,8 @@ const SEED: u32 = 0x7069_6c6f;
 
 /// How many pixels of the scene's film are tried, by so many paths at most; None where these are too few.
 pub fn tried_pixels(scene: &Scene, paths: f64) -> Option<u32> {
-    let most = (pixel_count(scene) / ONE_OF_PIXELS).clamp(FEWEST_PIXELS, MOST_PIXELS);
+    let [fewest, most] = TRIED_PIXELS;
+    let most = (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most);
     let affordable = (paths / TrialResult::paths(1)) as u64;
     (affordable >= FEWEST_PIXELS).then_some(affordable.min(most) as u32)
 }

@@ -128,6 +128,7 @@ fn known(name: &str, kind: &str) -> Option<Vec<(&'static str, &'static str)>> {
             &[&[("fov", "float"), ("screenwindow", "float"), ("lensradius", "float"), ("focaldistance", "float")]]
         }
         ("Camera", "orthographic") => &[&[("screenwindow", "float"), ("lensradius", "float"), ("focaldistance", "float")]],
+        ("Camera", "spherical") => &[&[("mapping", "string")]],
         ("MakeNamedMedium", "homogeneous") => {
             &[&[("type", "string"), ("sigma_a", "rgb"), ("sigma_s", "rgb"), ("Le", "rgb"), ("g", "float")]]
         }
