@@ -271,7 +271,7 @@ AttributeEnd
 AreaLightSource "diffuse" "rgb L" [ 1 2 3 ] "float power" 5
 Shape "loopsubdiv" "integer levels" 2 "point3 P" [ 0 0 0 1 0 0 0 1 0 0 0 1 ] "integer indices" [ 0 2 1 0 1 3 1 2 3 2 0 3 ]
 Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 1 ]
-LightSource "infinite" "string filename" "h.png""#;
+LightSource "infinite" "rgb L" [ 1 2 3 ]"#;
     let others: [(&str, &[u8]); 2] = [("h.png", &png_bytes([9, 8, 7])), ("part.pbrt", b"LightSource \"point\"")];
     damage("pbrt scene", "a.pbrt", scene.as_bytes(), &others, "a.pbrt", as_it_is);
 }
