@@ -1,5 +1,7 @@
 //! `gpt check`.
 
+use std::borrow::Cow;
+
 use gpt::binary_tree::parts::KeptTrees;
 use gpt::gpu::{Fitting, limits_for_plans, select_adapter};
 use gpt::learn::Settled;
@@ -118,7 +120,8 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     check_frames(&scene)?;
     let options = PlanOptions { film: arguments.film.storage(), ..arguments.traversal.options() };
     let (device, limits) = usual_device(&options)?;
-    let (plan, settled) = usual_plan(&scene, &limits, &options)?;
+    let planned = if arguments.plan { Cow::Borrowed(&scene) } else { without_guide(&scene) };
+    let (plan, settled) = usual_plan(&planned, &limits, &options)?;
     let summary = SceneSummary::of(&scene);
     let exit = if arguments.strict && !scene.import_report.is_empty() { Exit::Input } else { Exit::Done };
     let time = guess_time(&settled.scene)?;
@@ -205,8 +208,18 @@ pub fn host_needs(scene: &Scene, on_cpu: bool) -> Memory {
 pub fn device_memory(scene: &Scene) -> Result<(String, u64), Failure> {
     let options = TraversalArguments::default().options();
     let (device, limits) = usual_device(&options)?;
-    let (plan, _) = usual_plan(scene, &limits, &options)?;
+    let scene = without_guide(scene);
+    let (plan, _) = usual_plan(&scene, &limits, &options)?;
     Ok((device, plan.memory.total()))
+}
+
+/// The scene without a guide that nobody asked for: to learn whether it pays takes seconds, and it takes 18 MiB at most.
+fn without_guide(scene: &Scene) -> Cow<'_, Scene> {
+    let mut scene = Cow::Borrowed(scene);
+    if scene.render.guiding == Guiding::Auto {
+        scene.to_mut().render.guiding = Guiding::Off;
+    }
+    scene
 }
 
 /// The device that `--device auto` takes; without an adapter, one that has just what WebGPU promises.

@@ -83,11 +83,11 @@ pub fn why_none(scene: &Scene, budget: Budget) -> Option<Option<String>> {
 }
 
 /// Learns a guide for the scene of an integrator, and leaves it there. There has to be no reason against it
-/// ([`why_none`]).
-pub fn train(integrator: &mut Integrator, budget: Budget) -> Learned {
+/// ([`why_none`]). `work_of_path`: the work of a path, where that was judged before.
+pub fn train(integrator: &mut Integrator, budget: Budget, work_of_path: Option<f64>) -> Learned {
     let not_at_all = |because: String| Learned { guide: None, because: Some(because) };
     let has_to_pay = integrator.scene().render.guiding == Guiding::Auto;
-    let of_path = work_of_path::of_path(integrator);
+    let of_path = work_of_path.unwrap_or_else(|| work_of_path::of_path(integrator));
     let budget = has_to_pay.then(|| budget.paths(of_path));
     if budget.is_some_and(|paths| paths < LEAST_BUDGET) {
         return not_at_all(TOO_SHORT.to_owned());

@@ -61,14 +61,14 @@ pub fn may_learn(scene: &Scene) -> bool {
 fn settle_baked(scene: &Scene, effort: Effort) -> Result<Settled<'_>, RenderError> {
     let budget = Budget::new(scene, effort);
     let was_open = scene.render.light_choice == LightChoice::Auto;
-    let Chosen { scene, mut because, mut was_tried, mut integrator, left } = trial::choose(scene, budget)?;
+    let Chosen { scene, mut because, mut was_tried, mut integrator, left, work_of_path } = trial::choose(scene, budget)?;
     let light_cells = integrator.as_ref().and_then(|integrator| integrator.light_cells().cloned());
     let mut guide = None;
     match guide::why_none(&scene, left) {
         Some(why) => because.directions = why,
         None => {
             let mut ready = integrator.map_or_else(|| Integrator::new(&scene), Ok)?;
-            Learned { guide, because: because.directions } = guide::train(&mut ready, left);
+            Learned { guide, because: because.directions } = guide::train(&mut ready, left, work_of_path);
             was_tried = true;
             integrator = Some(ready);
         }

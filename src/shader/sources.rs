@@ -14,6 +14,7 @@ macro_rules! shader_files {
 
 shader_files![
     "core/camera.wgsl",
+    "core/camera/rising.wgsl",
     "core/lcg.wgsl",
     "core/math.wgsl",
     "core/octahedron.wgsl",

@@ -1,4 +1,4 @@
-//! Where cameras show a point, by formulas of their own: the map from points to places of the picture, which renderers never compute.
+//! Places at which cameras show points, by formulas of their own: the map from points to the picture, which renderers never compute.
 
 use std::f64::consts::{PI, TAU};
 
@@ -218,7 +218,7 @@ pub fn projections() -> Vec<Projected> {
 
 /// Right, left, up, down, front, back, each 50 pixels wide.
 fn cube_side(p: DVec3, tile: u32) -> DVec2 {
-    // What is to the right, up and in front of who looks at the side.
+    // Directions to the right, up and forward of a viewer who looks at the side.
     let [right, up, front] =
         [[-p.z, p.y, p.x], [p.z, p.y, -p.x], [p.x, -p.z, p.y], [p.x, p.z, -p.y], [p.x, p.y, p.z], [-p.x, p.y, -p.z]]
             [tile as usize];

@@ -61,7 +61,7 @@ const OF_SETTINGS: [&str; 11] = [
     "PIXEL_LCG",
 ];
 
-/// Those of cameras whose picture is not flat, or is not one: a scene has one camera.
+/// Switches of cameras whose picture is not flat, or is not one: a scene has one camera.
 const OF_CAMERAS: [&str; 12] = [
     "BLIND_PIXELS",
     "BROWN_CONRADY",

@@ -86,7 +86,7 @@ fn the_choice_depends_on_neither_the_seed_nor_the_part() {
     assert_eq!(settled(&scene).light_samples, NumberOrAuto::Auto);
 }
 
-/// What is learned takes its share of the render: nothing is where that is over at once, by its samples, by a time limit or on a graphics card.
+/// Learning takes its share of the render: nothing is learned if that is over at once, by its samples, by a time limit or on a graphics card.
 #[test]
 fn short_renders_learn_nothing() {
     let choice = |spp: u32, effort: Effort| {

@@ -30,7 +30,7 @@ fn pbrt_scenes_of_many_things() {
     let _turn = take_turn();
     type Lines = fn(usize) -> String;
     let nothing: Lines = |_| String::new();
-    let rows: [(&str, usize, Lines, Lines); 9] = [
+    let rows: [(&str, usize, Lines, Lines); 10] = [
         ("shapes", 2000, |_| "Shape \"sphere\"".to_owned(), nothing),
         ("materials", 1000, |_| "Material \"diffuse\" Shape \"sphere\"".to_owned(), nothing),
         (
@@ -39,7 +39,12 @@ fn pbrt_scenes_of_many_things() {
             |i| format!("MakeNamedMaterial \"m{i}\" \"string type\" \"diffuse\""),
             |i| format!("NamedMaterial \"m{i}\" Shape \"sphere\""),
         ),
-        // Bodies that hold media are held against each other, which is quadratic: 2,000 of them take a quarter of a second.
+        (
+            "media",
+            1000,
+            |i| format!("MakeNamedMedium \"m{i}\" \"string type\" \"homogeneous\""),
+            |i| format!("MediumInterface \"m{i}\" \"\" Material \"interface\" Shape \"sphere\""),
+        ),
         (
             "textures",
             1000,

@@ -1,4 +1,5 @@
 // A perspective that a lens distorts. crates/gpt-scene/src/scene/camera/brown_conrady.rs is the same in f64, with the formula's source.
+#import core/camera/rising.wgsl
 #import core/parameters.wgsl
 
 // How near to the place its direction must be shown, on the plane at distance 1.
@@ -15,32 +16,15 @@ fn radial_factor(square: f32) -> vec2<f32> {
     return vec2<f32>(a / b, (a_slope - a / b * b_slope) / b);
 }
 
-// The radius that is shown at a distance from the axis at which the radial part has a value: Newton's method between two radii that enclose it.
+// The radius that is shown at a distance from the axis at which the radial part has a value.
 fn radius_shown_at(distance: f32) -> f32 {
-    var low = 0.0;
-    var high = view.model[3].x;
-    var at = min(distance, high);
-    for (var step = 0u; step < 64u; step++) {
+    var search = search_up_to(view.model[3].x, distance);
+    for (var step = 0u; step < 64u && !search.found; step++) {
+        let at = search.at;
         let d = radial_factor(at * at);
-        let found = at * d.x - distance;
-        if found > 0.0 {
-            high = at;
-        } else {
-            low = at;
-        }
-        let slope = d.x + 2.0 * at * at * d.y;
-        var next = 0.5 * (low + high);
-        if slope > 0.0 {
-            let newton = at - found / slope;
-            next = select(next, newton, newton >= low && newton <= high);
-        }
-        let change = abs(next - at);
-        at = next;
-        if change <= 1.2e-7 * at {
-            break;
-        }
+        search = search_step(search, at * d.x - distance, d.x + 2.0 * at * at * d.y);
     }
-    return at;
+    return search.at;
 }
 
 // The place at which a point of the plane at distance 1 is shown on it (x, y).

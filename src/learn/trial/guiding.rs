@@ -62,7 +62,7 @@ mod tests {
             load::load_toml_str(&ROOM.replace("WIDTH", width), "room", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
         change(&mut scene.render);
         let mut integrator = Integrator::new(&scene).expect("the reference renders it");
-        assert!(guide::train(&mut integrator, Budget::new(&scene, Effort::default())).guide.is_some());
+        assert!(guide::train(&mut integrator, Budget::new(&scene, Effort::default()), None).guide.is_some());
         integrator
     }
 
@@ -116,7 +116,7 @@ mod tests {
         (cornell.film.size, cornell.render.guiding) = ([32, 32], Guiding::On);
         let budget = Budget::new(&cornell, Effort::default());
         let mut cornell = Integrator::new(&cornell).expect("the reference renders it");
-        assert!(guide::train(&mut cornell, budget).guide.is_some());
+        assert!(guide::train(&mut cornell, budget, None).guide.is_some());
         let cornell = loss_with_guide(&mut cornell, 256);
         assert!(behind_a_wall < 0.7 && cornell > 1.0, "{behind_a_wall} and {cornell}");
     }

@@ -60,6 +60,8 @@ pub struct Chosen<'a> {
     pub integrator: Option<Integrator>,
     /// The budget, without what finding out took.
     pub left: Budget,
+    /// The work of a path, where that was judged.
+    pub work_of_path: Option<f64>,
 }
 
 /// Settings that the scene leaves open.
@@ -117,34 +119,40 @@ fn choose_the_rest(
     has_cells: bool,
 ) -> Result<Chosen<'_>, RenderError> {
     let mut open = Open::of(&scene.render, has_cells);
-    let as_it_is =
-        |integrator, because| Chosen { scene: Cow::Borrowed(scene), because, was_tried: false, integrator, left: budget };
+    let as_it_is = |integrator, because, work_of_path| Chosen {
+        scene: Cow::Borrowed(scene),
+        because,
+        was_tried: false,
+        integrator,
+        left: budget,
+        work_of_path,
+    };
     if !open.is_any() {
-        return Ok(as_it_is(integrator, Reasons::default()));
+        return Ok(as_it_is(integrator, Reasons::default(), None));
     }
     // Settings that stay open mean one light sample, and the area of flat lights.
     if let Some(because) = not_worth_trying(scene) {
-        return Ok(as_it_is(integrator, open.reasons(because)));
+        return Ok(as_it_is(integrator, open.reasons(because), None));
     }
     let guide_is_wanted = guide_may_pay(scene);
     let affordable = |of_path| tried_pixels(scene, budget.of_lights(guide_is_wanted).paths(of_path) / USUAL_WAYS);
     if affordable(0.0).is_none() {
-        return Ok(as_it_is(integrator, open.reasons(TOO_SHORT)));
+        return Ok(as_it_is(integrator, open.reasons(TOO_SHORT), None));
     }
     let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
     let of_path = work_of_path::of_path(&integrator);
     let Some(pixels) = affordable(of_path) else {
-        return Ok(as_it_is(Some(integrator), open.reasons(TOO_SHORT)));
+        return Ok(as_it_is(Some(integrator), open.reasons(TOO_SHORT), Some(of_path)));
     };
     let mut trial = TrialRun::new(scene, integrator, pixels);
     if of_path * TrialResult::paths(trial.pixels) > MOST_WORK_OF_WAY {
         let because = too_much_work("a trial run", of_path);
         let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };
-        return Ok(as_it_is(Some(trial.integrator), reasons));
+        return Ok(as_it_is(Some(trial.integrator), reasons, Some(of_path)));
     }
     open.light_sampling &= trial.costliest_outline.is_some();
     if !open.is_any() {
-        return Ok(as_it_is(Some(trial.integrator), Reasons::default()));
+        return Ok(as_it_is(Some(trial.integrator), Reasons::default(), Some(of_path)));
     }
     let because = try_ways(&mut trial, open);
     trial.integrator.set_light_choice(trial.settings.light_choice);
@@ -156,6 +164,7 @@ fn choose_the_rest(
         was_tried: true,
         integrator: Some(trial.integrator),
         left,
+        work_of_path: Some(of_path),
     })
 }
 

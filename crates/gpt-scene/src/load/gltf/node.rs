@@ -14,20 +14,16 @@ use super::made::{Bending, MadePrimitive, MovingNodes};
 use crate::load::file::shape::{ShapeEntry, TransformEntry, mesh};
 use crate::load::file::syntax::ProjectionName;
 use crate::load::file::value::{Checked, Exactly};
-use crate::load::import::{camera_at, pays_as_instances};
+use crate::load::import::{MOST_SHAPES, camera_at, pays_as_instances, triangles_fit};
 use crate::load::memory;
 use crate::load::place::Place;
 use crate::load::printable::short_list;
 use crate::scene::Mesh;
 
-/// Bytes that a triangle takes once it is packed, with its share of the hierarchy.
-const TRIANGLE_BYTES: u64 = 200;
 /// Bytes that a copy of a mesh takes while it is read and in the scene.
 const COPY_BYTES: u64 = 512;
 /// Copies from which on it is asked whether there is memory for them.
 const MANY_COPIES: u64 = 1 << 18;
-/// Most shapes of a scene.
-const MOST_SHAPES: usize = 1 << 20;
 /// Degrees that a scene's camera may have.
 const FIELDS_OF_VIEW: RangeInclusive<f64> = 0.001..=179.0;
 /// Widths of pictures over their heights.
@@ -329,16 +325,9 @@ impl Importer<'_> {
             let made = self.primitive(mesh, primitive, bending).map_err(of_primitive)?;
             let Some(made) = made else { continue };
             self.triangles += made.triangles;
-            let needed = self.triangles * TRIANGLE_BYTES;
-            let available = memory::available();
-            if self.triangles > 1 << 20 && needed > available || self.scene.file.shape.len() >= MOST_SHAPES {
-                return Err(format!(
-                    "the scene does not fit: up to here it has {} triangles in {} shapes, copies counted, which take about {} MiB; {} MiB are free",
-                    self.triangles,
-                    self.scene.file.shape.len(),
-                    needed >> 20,
-                    available >> 20
-                ));
+            triangles_fit(self.triangles)?;
+            if self.scene.file.shape.len() >= MOST_SHAPES {
+                return Err(format!("the scene has more than {MOST_SHAPES} shapes, instances counted"));
             }
             let place = self.place(&format!("nodes[{index}]"));
             let mut shape = mesh_entry(made, &place);

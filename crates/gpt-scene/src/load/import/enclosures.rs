@@ -42,18 +42,15 @@ struct Enclosure {
     is_crossed: bool,
     /// The lower and upper corner of the box around it; None of what is infinite.
     bounds: Option<[DVec3; 2]>,
+    /// A measure by which boxes are ordered, flat ones too.
+    size: f64,
 }
 
 impl Enclosure {
     fn is_within(&self, other: &Self) -> bool {
         let (Some([low, high]), Some([other_low, other_high])) = (self.bounds, other.bounds) else { return false };
         let slack = (other_high - other_low) * 1e-6;
-        low.cmpge(other_low - slack).all() && high.cmple(other_high + slack).all() && self.size() < other.size()
-    }
-
-    /// A measure by which boxes are ordered, flat ones too.
-    fn size(&self) -> f64 {
-        self.bounds.map_or(f64::INFINITY, |[low, high]| (high - low).length())
+        low.cmpge(other_low - slack).all() && high.cmple(other_high + slack).all() && self.size < other.size
     }
 }
 
@@ -71,6 +68,26 @@ pub struct Enclosures {
     crossed: HashMap<String, bool>,
     /// The name of a medium that neither takes nor gives.
     clear: Option<String>,
+    materials: MaterialNumbers,
+}
+
+/// Numbers of the scene's materials by their names; of those that share a name, that of the last one.
+#[derive(Default)]
+struct MaterialNumbers {
+    by_name: HashMap<String, usize>,
+    /// So many of the scene's materials are in it: they are added one by one.
+    known: usize,
+}
+
+impl MaterialNumbers {
+    fn find<'d>(&mut self, scene: &'d Description, name: &str) -> Option<&'d MaterialEntry> {
+        let materials = &scene.file.material;
+        for (number, entry) in materials.iter().enumerate().skip(self.known) {
+            self.by_name.insert(entry.name().to_owned(), number);
+        }
+        self.known = materials.len();
+        self.by_name.get(name).map(|number| &materials[*number])
+    }
 }
 
 impl Enclosures {
@@ -80,7 +97,8 @@ impl Enclosures {
         if sides.is_boundary || self.is_body(scene, &material) {
             let is_crossed = self.is_crossed(scene, &material);
             let bounds = scene.bounds_of(entry);
-            self.shapes.push(Enclosure { place: place.clone(), shape: scene.file.shape.len(), sides, is_crossed, bounds });
+            let size = bounds.map_or(f64::INFINITY, |[low, high]| (high - low).length());
+            self.shapes.push(Enclosure { place: place.clone(), shape: scene.file.shape.len(), sides, is_crossed, bounds, size });
         }
     }
 
@@ -115,7 +133,7 @@ impl Enclosures {
             return Ok(known.clone());
         }
         let (material, medium) = &key;
-        let Some(mut entry) = find(scene, material).cloned() else { return Ok(material.clone()) };
+        let Some(mut entry) = self.materials.find(scene, material).cloned() else { return Ok(material.clone()) };
         // A body keeps what it holds by itself.
         if entry.common().interior.is_some() {
             return Ok(material.clone());
@@ -145,7 +163,8 @@ impl Enclosures {
 
     /// Light goes through a surface of this material, as it is or bent.
     fn is_crossed(&mut self, scene: &Description, name: &str) -> bool {
-        *self.crossed.entry(name.to_owned()).or_insert_with(|| is_crossed(scene, name))
+        let materials = &mut self.materials;
+        *self.crossed.entry(name.to_owned()).or_insert_with(|| is_crossed(materials, scene, name))
     }
 
     /// Light gets into bodies of this material, which bends it.
@@ -154,7 +173,7 @@ impl Enclosures {
             return *known;
         }
         // Blends share their parts: each is looked at once.
-        let is_body = match find(scene, name) {
+        let is_body = match self.materials.find(scene, name) {
             Some(entry @ (MaterialEntry::Glass(_) | MaterialEntry::RoughGlass(_))) => !is_thin(entry),
             Some(entry @ MaterialEntry::Principled(keys)) => keys.transmission.is_some() && !is_thin(entry),
             Some(entry) => entry.parts().iter().any(|part| self.is_body(scene, &part.value)),
@@ -177,10 +196,12 @@ impl Enclosures {
         if hulls.len().saturating_mul(shapes.len()) > MOST_PAIRS {
             hulls.clear();
         }
-        hulls.sort_by(|a, b| a.size().total_cmp(&b.size()));
+        hulls.sort_by(|a, b| a.size.total_cmp(&b.size));
         let around_all = self.around_camera.clone().filter(|medium| !leaves_with_rays(scene, medium, &hulls));
         for shape in &shapes {
-            let hull = hulls.iter().find(|hull| shape.is_within(hull));
+            // Smaller ones hold nothing of it.
+            let first = hulls.partition_point(|hull| hull.size <= shape.size);
+            let hull = hulls[first..].iter().find(|hull| shape.is_within(hull));
             let around = match hull {
                 Some(hull) => hull.sides.inside.clone(),
                 None => around_all.clone(),
@@ -222,18 +243,13 @@ fn report_outside(scene: &mut Description, sides: &Sides, is_around: bool, place
     scene.report.approximate(said, place.to_string(), instead);
 }
 
-/// The entry of a material; the one made last is asked for first.
-fn find<'d>(scene: &'d Description, name: &str) -> Option<&'d MaterialEntry> {
-    scene.file.material.iter().rev().find(|entry| entry.name() == name)
-}
-
 /// Light goes through a surface of this material, as it is or bent.
-fn is_crossed(scene: &Description, name: &str) -> bool {
+fn is_crossed(materials: &mut MaterialNumbers, scene: &Description, name: &str) -> bool {
     // Parts that many blends share are looked at once.
     let mut seen = HashSet::new();
     let mut to_visit = vec![name];
     while let Some(name) = to_visit.pop() {
-        match find(scene, name).filter(|_| seen.insert(name)) {
+        match materials.find(scene, name).filter(|_| seen.insert(name)) {
             Some(MaterialEntry::Glass(_) | MaterialEntry::RoughGlass(_) | MaterialEntry::Pass(_)) => return true,
             Some(MaterialEntry::Principled(keys)) if keys.transmission.is_some() => return true,
             // The other side is below the lowest interface.

@@ -13,6 +13,7 @@ pub mod measured_media;
 mod mesh;
 mod outline;
 mod relief;
+mod triangle_memory;
 mod within;
 
 pub use crate::scene::ImportReport;
@@ -25,6 +26,7 @@ pub use mesh::{
     barycentric_coordinates, cylinder, disk, grid_sphere, sheet, smooth_by_index, square, turn_inside_out, unit_cube,
 };
 pub use relief::Relief;
+pub use triangle_memory::triangles_fit;
 
 /// Most shapes of a scene, instances counted.
 pub const MOST_SHAPES: usize = 1 << 20;

@@ -14,13 +14,10 @@ use crate::load::error::SceneError;
 use crate::load::file::shape::{self as shapes, ShapeEntry};
 use crate::load::file::value::Located;
 use crate::load::import::{
-    Input, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, turn_inside_out, unit_cube,
+    Input, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, triangles_fit, turn_inside_out, unit_cube,
 };
-use crate::load::memory;
 use crate::scene::Mesh;
 
-/// Bytes that a triangle takes once it is packed, with its share of the hierarchy.
-const TRIANGLE_BYTES: u64 = 200;
 /// Most groups within each other.
 const DEEPEST_GROUP: usize = 8;
 
@@ -311,16 +308,7 @@ impl Converter<'_> {
     /// Instances are copies: what they take must be there.
     fn counted(&mut self, plugin: &Plugin, faces: u64) -> Result<(), SceneError> {
         self.triangles += faces;
-        let needed = self.triangles * TRIANGLE_BYTES;
-        let available = memory::available();
-        if self.triangles > 1 << 20 && needed > available {
-            let (triangles, needed, available) = (self.triangles, needed >> 20, available >> 20);
-            return Err(plugin.error(format!(
-                "the scene does not fit: up to here it has {triangles} triangles, with each instance's copies, which take about {needed} MiB; \
-                 {available} MiB are free"
-            )));
-        }
-        Ok(())
+        triangles_fit(self.triangles).map_err(|message| plugin.error(message))
     }
 }
 

@@ -18,14 +18,10 @@ use crate::load::error::SceneError;
 use crate::load::file::shape::TransformEntry;
 use crate::load::file::value::Located;
 use crate::load::files::Files;
-use crate::load::import::{Description, Enclosures, Input};
-use crate::load::memory;
+use crate::load::import::{Description, Enclosures, Input, triangles_fit};
 use crate::load::model::Substitute;
 use crate::scene::{ConductorFresnel, Mesh};
 use crate::spectrum::Spectrum;
-
-/// Bytes that a triangle takes once it is packed, with its share of the hierarchy.
-const TRIANGLE_BYTES: u64 = 200;
 
 /// A mesh as its file has it, and what in the file was wrong and has something else in its place.
 pub struct ReadMesh {
@@ -155,16 +151,7 @@ impl<'a> Converter<'a> {
     /// Counts triangles, which must be there.
     pub fn counted(&mut self, spot: &Spot, faces: u64) -> Result<(), SceneError> {
         self.triangles += faces;
-        let needed = self.triangles * TRIANGLE_BYTES;
-        let available = memory::available();
-        if self.triangles > 1 << 20 && needed > available {
-            let (triangles, needed, available) = (self.triangles, needed >> 20, available >> 20);
-            return Err(spot.error(format!(
-                "the scene does not fit: up to here it has {triangles} triangles, with each instance's copies, which take about {needed} MiB; \
-                 {available} MiB are free"
-            )));
-        }
-        Ok(())
+        triangles_fit(self.triangles).map_err(|message| spot.error(message))
     }
 
     /// n and k of a metal.
