@@ -41,7 +41,7 @@ const PATHS_OF_PIXEL: u32 = 8;
 const FEWEST_PATHS: u32 = 1 << 14;
 const MOST_PATHS: u32 = 1 << 19;
 /// Paths that learning and trial runs together have at least, where a guide has to pay: fewer teach too little.
-const LEAST_BUDGET: f64 = 65_536.0;
+const LEAST_PATHS: f64 = 65_536.0;
 /// Share of these that trial runs take.
 const SHARE_OF_TRIALS: f64 = 0.4;
 /// Paths of a trial run for each pixel that it tries, with those that look at what is in view.
@@ -76,7 +76,7 @@ pub fn why_none(scene: &Scene, budget: Budget) -> Option<Option<String>> {
         Guiding::Off => return Some(None),
         _ if !paths_scatter(scene) => "paths have no bounce that light depends on",
         _ if has_to_pay && has_many_triangles(scene) => "learning takes too long for so many triangles",
-        _ if has_to_pay && budget.most_paths() < LEAST_BUDGET => TOO_SHORT,
+        _ if has_to_pay && budget.most_paths() < LEAST_PATHS => TOO_SHORT,
         _ => return None,
     };
     Some(Some(because.to_owned()))
@@ -89,7 +89,7 @@ pub fn train(integrator: &mut Integrator, budget: Budget, work_of_path: Option<f
     let has_to_pay = integrator.scene().render.guiding == Guiding::Auto;
     let of_path = work_of_path.unwrap_or_else(|| work_of_path::of_path(integrator));
     let budget = has_to_pay.then(|| budget.paths(of_path));
-    if budget.is_some_and(|paths| paths < LEAST_BUDGET) {
+    if budget.is_some_and(|paths| paths < LEAST_PATHS) {
         return not_at_all(TOO_SHORT.to_owned());
     }
     let Some(rounds) = affordable(rounds(integrator.scene(), budget), of_path, has_to_pay) else {
