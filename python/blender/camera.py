@@ -62,7 +62,7 @@ def _view(scene, data, width, height, size):
         "width": view_width,
         "height": view_height,
         "shift": [data.shift_x * size / view_width, data.shift_y * size / view_height],
-        "stretch": pixel_y / pixel_x,
+        "stretch": pixel_x / pixel_y,
         "horizontal": horizontal,
     }
 

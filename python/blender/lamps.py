@@ -75,12 +75,14 @@ def _unsaid(lamp_object, lamp, where, report):
         report.add(where, "light linking", "it shines on everything")
 
 
-def _surface(file, where, radiance, hidden, two_sided):
-    """The material of a lamp's surface. From behind, and where it is hidden from the camera, it is not there."""
+COVER = 1 / 256
+"""How much of a lamp's surface there is: in Cycles all light passes a lamp, so it shows what lies behind, besides its own light."""
+
+
+def _surface(file, where, radiance, hidden):
+    """The material of a lamp's surface, which emits from its front."""
     name = where.removeprefix("lamp ")
-    entry = {"type": "emissive", "radiance": grey(radiance), "two_sided": two_sided}
-    if not two_sided:
-        entry = {"type": "blend", "materials": [entry, {"type": "pass"}], "weight": {"type": "front"}}
+    entry = {"type": "diffuse", "reflectance": 0, "opacity": COVER, "emission": grey(numpy.asarray(radiance) / COVER)}
     if hidden:
         entry = {"type": "blend", "materials": [{"type": "pass"}, entry], "weight": {"type": "camera"}}
     return file.add_material(entry, f"lamp {name}")
@@ -94,7 +96,7 @@ def _point(lamp, power, position, hidden, where, file, report):
     radiance = power / math.pi / (4 * math.pi * radius * radius if lamp.normalize else 1)
     if getattr(lamp, "use_soft_falloff", False):
         report.add(where, "a soft falloff", "a sphere all the same: only what is nearer than some radii looks different")
-    material = _surface(file, where, radiance, hidden, two_sided=False)
+    material = _surface(file, where, radiance, hidden)
     file.shapes.append({"type": "sphere", "center": point(position), "radius": radius, "material": material})
 
 
@@ -134,7 +136,7 @@ def _area(lamp, power, position, directions, lengths, hidden, where, file, repor
     round_shape = lamp.shape in ("DISK", "ELLIPSE")
     area = size_x * size_y * (math.pi / 4 if round_shape else 1)
     radiance = power / math.pi / (area if lamp.normalize else 1)
-    material = _surface(file, where, radiance, hidden, two_sided=False)
+    material = _surface(file, where, radiance, hidden)
     across, up = directions[:, 0] * size_x, directions[:, 1] * size_y
     if not round_shape:
         file.shapes.append({
@@ -182,5 +184,5 @@ def _sun(lamp, irradiance, directions, hidden, where, file, scene_sphere):
         "center": point(middle - travels * distance),
         "normal": point(travels),
         "radius": float(distance * math.tan(half)),
-        "material": _surface(file, where, radiance, hidden, two_sided=False),
+        "material": _surface(file, where, radiance, hidden),
     })

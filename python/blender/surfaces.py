@@ -105,7 +105,7 @@ class Surfaces:
                 return numpy.concatenate([(normal + 1) / 2, pixels[..., 3:]], axis=-1)
 
             picture = self.values.apply(bent, picture)
-        return {"normal_map": picture}
+        return {"normal_map": picture, "normal_shadowing": True}
 
     def _bump(self, bend):
         if origin(bend.inputs["Normal"]) is not None:
@@ -117,7 +117,7 @@ class Surfaces:
         if height.channel is not None or height.image is not None and height.image.colorspace_settings.name == "sRGB":
             height = height.with_channel(None).with_pixels(height.pixels)
         scale = self.values.constant(bend.inputs["Strength"], bend, "Strength") * self.values.constant(bend.inputs["Distance"], bend, "Distance")
-        return {"bump_map": height, "bump_scale": -scale if bend.invert else scale}
+        return {"bump_map": height, "bump_scale": -scale if bend.invert else scale, "normal_shadowing": True}
 
     def scaled(self, color, factor):
         """A colour times a constant colour, at most 1 in each channel."""

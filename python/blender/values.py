@@ -263,13 +263,16 @@ def _image(values, node, output):
         return picture.with_channel("a") if output.identifier == "Alpha" else picture
     if output.identifier == "Alpha" and image.channels < 4 and node.extension != "CLIP":
         return Constant([1, 1, 1, 1])
-    # Cycles: a colour without its alpha is the colour times alpha.
+    # Cycles: a colour without its alpha is the colour times alpha, and with it what was multiplied is divided again.
     alpha_is_used = any(other.identifier == "Alpha" and other.is_linked for other in node.outputs)
-    if output.identifier == "Color" and image.channels == 4 and image.alpha_mode == "STRAIGHT" and not image.is_float and not alpha_is_used:
+    has_alpha = image.channels == 4 and image.alpha_mode in ("STRAIGHT", "PREMUL") and space != "Non-Color"
+    is_multiplied = image.is_float or image.alpha_mode == "PREMUL"
+    if output.identifier == "Color" and has_alpha and alpha_is_used == is_multiplied:
         pixels = picture.pixels
-        if pixels[..., 3].min() < 1:
-            colors = pixels[..., :3] * pixels[..., 3:]
-            picture = picture.with_pixels(numpy.concatenate([colors, pixels[..., 3:]], axis=2))
+        alpha = pixels[..., 3:]
+        if alpha.min() < 1:
+            factor = 1 / numpy.where(alpha > 0, alpha, 1) if is_multiplied else alpha
+            picture = picture.with_pixels(numpy.concatenate([pixels[..., :3] * factor, alpha], axis=2))
     if node.extension == "CLIP":
         pixels = numpy.zeros((height + 2, width + 2, 4), dtype=numpy.float32)
         pixels[1:-1, 1:-1] = picture.pixels

@@ -125,7 +125,10 @@ def _finished(name, material):
 
 
 def image(name, pixels, linear=False, is_float=False):
-    """A picture of rows from the bottom, kept in the file as PNG or OpenEXR."""
+    """A picture of rows from the bottom, kept in the file as PNG or OpenEXR.
+
+    Cycles interpolates bytes as they are encoded and gpt what they mean, so these scenes have floats.
+    """
     height, width = pixels.shape[:2]
     made = bpy.data.images.new(name, width, height, alpha=True, float_buffer=is_float)
     if linear:
@@ -170,7 +173,7 @@ def soft_lamps():
     lamp("AREA", 60, (2.5, 0.5, 2), (0.1, 0.9, 0), (1.5, 0.7, 1), shape="RECTANGLE", size=0.6, size_y=1.2, color=(1, 0.5, 0.4), visible=True)
     lamp("AREA", 40, (0, -1.5, 3), (0.4, 0, 0), shape="DISK", size=1)
     lamp("AREA", 40, (0, 2.5, 2.2), (-1.0, 0, 0), shape="ELLIPSE", size=1.6, size_y=0.5, color=(0.4, 0.6, 1))
-    lamp("POINT", 40, (1.2, -1.4, 0.5), shadow_soft_size=0.2, visible=True)
+    lamp("POINT", 40, (1.2, -1.4, 0.5), shadow_soft_size=0.2, visible=True, use_soft_falloff=False)
     lamp("SUN", 0.4, (0, 0, 5), (0.5, 0.6, 0), angle=math.radians(12))
     camera()
     return scene
@@ -205,7 +208,7 @@ def lenses():
     scene = empty()
     grey_world((0.3, 0.35, 0.4))
     nodes = Nodes("Checks")
-    picture = nodes.node("TexImage", {"image": image("Checks", checks(64, 64, (0.9, 0.8, 0.7), (0.1, 0.1, 0.2)))})
+    picture = nodes.node("TexImage", {"image": image("Checks", checks(64, 64, (0.9, 0.8, 0.7), (0.1, 0.1, 0.2)), is_float=True)})
     floor(nodes.show(nodes.node("BsdfDiffuse", Color=picture)))
     for index in range(4):
         ball(f"Ball {index}", simple(f"Light {index}", "Emission", Color=(1, 0.3 * index, 0.2), Strength=2.0), (index - 1.5, 2.5 * index - 2, 0.4), 0.25)
@@ -224,7 +227,7 @@ def panoramas():
     scene = empty()
     grey_world((0.2, 0.3, 0.5))
     nodes = Nodes("Checks")
-    picture = nodes.node("TexImage", {"image": image("Checks", checks(64, 64, (0.9, 0.8, 0.7), (0.1, 0.1, 0.2)))})
+    picture = nodes.node("TexImage", {"image": image("Checks", checks(64, 64, (0.9, 0.8, 0.7), (0.1, 0.1, 0.2)), is_float=True)})
     floor(nodes.show(nodes.node("BsdfDiffuse", Color=picture)))
     for index, place in enumerate(((2, 0, 1), (0, 2.5, 1.5), (-2, 0.5, 2), (0.5, -2, 1))):
         ball(f"Ball {index}", simple(f"Light {index}", "Emission", Color=(1, 0.3 * index, 0.2), Strength=1.5), place, 0.4)
@@ -258,7 +261,7 @@ def glass():
     scene = empty()
     grey_world((0.4, 0.4, 0.4))
     nodes = Nodes("Checks")
-    picture = nodes.node("TexImage", {"image": image("Checks", checks(64, 64, (0.9, 0.8, 0.7), (0.1, 0.1, 0.2), 16))})
+    picture = nodes.node("TexImage", {"image": image("Checks", checks(64, 64, (0.9, 0.8, 0.7), (0.1, 0.1, 0.2), 16), is_float=True)})
     floor(nodes.show(nodes.node("BsdfDiffuse", Color=picture)))
     ball("Glass", simple("Glass", "BsdfGlass", {"distribution": "GGX"}, Color=(1, 1, 1), Roughness=0.0, IOR=1.5), (-1.6, 0, 0.7))
     ball("Frosted", simple("Frosted", "BsdfGlass", {"distribution": "GGX"}, Color=(0.9, 1, 0.9), Roughness=0.3, IOR=1.4), (0, 0.4, 0.7))
@@ -322,7 +325,7 @@ def textures():
     """Pictures by a Mapping node, all four extensions, nodes between, a normal map, an alpha and colours of corners."""
     scene = empty()
     grey_world((0.4, 0.4, 0.4))
-    picture = image("Checks", checks(32, 32, (0.9, 0.8, 0.7), (0.1, 0.1, 0.4), 4))
+    picture = image("Checks", checks(32, 32, (0.9, 0.8, 0.7), (0.1, 0.1, 0.4), 4), is_float=True)
 
     def textured(name, extension="REPEAT", scale=(2, 1, 1), rotation=0.4, kind="POINT", change=None):
         nodes = Nodes(name)
@@ -347,7 +350,7 @@ def textures():
     holes = checks(32, 32, (0.9, 0.5, 0.1), (0.1, 0.5, 0.9), 4)
     holes[..., 3] = numpy.where((x - 0.5) ** 2 + (y - 0.5) ** 2 < 0.12, 0.25, 1.0)
     nodes = Nodes("Holes")
-    holed = nodes.node("TexImage", {"image": image("Holes", holes)})
+    holed = nodes.node("TexImage", {"image": image("Holes", holes, is_float=True)})
     panels.append(nodes.show(nodes.node(
         "MixShader", i0=holed.outputs["Alpha"], i1=nodes.node("BsdfTransparent"), i2=nodes.node("BsdfDiffuse", Color=holed.outputs["Color"]))))
     nodes = Nodes("Painted")
