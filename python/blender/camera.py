@@ -155,11 +155,14 @@ def _equisolid(data, source, camera, width, height, where, report):
     sensor = data.sensor_height if fit == "VERTICAL" else data.sensor_width
     sine = sensor / (4 * lens)
     shown = math.degrees(source.fisheye_fov)
-    if sine >= 1:
-        report.add(where, "a fisheye whose sensor is wider than its picture of all directions", "a field of view of 360 degrees")
+    to_corner = math.hypot(width, height) / (width if horizontal else height)
+    whole = math.degrees(4 * math.asin(min(sine * to_corner, 1)))
+    if sine * to_corner <= 1 and shown >= whole - 0.01:
+        camera["fov"], camera["fit"] = whole, "diagonal"
+        return
     camera["fov"] = math.degrees(4 * math.asin(min(sine, 1)))
     camera["fit"] = "width" if horizontal else "height"
-    diagonal = math.hypot(width, height) / (width if horizontal else height)
-    at_corner = math.degrees(4 * math.asin(min(sine * diagonal, 1)))
-    if shown < min(at_corner, camera["fov"]) - 0.01:
-        report.add(where, f"a fisheye that is black past {shown:g} degrees", f"it shows {camera['fov']:g} degrees")
+    if sine > 1:
+        report.add(where, "a fisheye whose circle is smaller than its sensor", "the circle of 360 degrees fills the sensor")
+    elif abs(shown - camera["fov"]) > 0.01:
+        report.add(where, f"a fisheye that is black past {shown:g} degrees", f"it is black past {camera['fov']:g} degrees")

@@ -47,6 +47,10 @@ class Materials:
                 result[key] = [self._finished(part, where, sources) for part in value]
             elif key == "weight":
                 result[key] = self._finished_weight(value, where, sources)
+            elif key in ("anisotropy", "alpha_u"):
+                # Directions along a surface are those of its texture coordinates.
+                sources.append(("uv", ""))
+                result[key] = value
             elif key in ("normal_map", "bump_map"):
                 result[key] = self._texture(value, where, sources)["texture"]
             elif isinstance(value, Constant):
@@ -56,11 +60,11 @@ class Materials:
                 if key not in COLORS and key != "normal_scale":
                     result[key] = min(max(result[key], 0.0), 1.0)
             elif isinstance(value, Picture):
-                result[key] = self._texture(value, where, sources)
+                result[key] = self._texture(self._limited(key, value, where), where, sources)
                 if key not in COLORS and "channel" not in result[key]:
                     result[key]["channel"] = "r"
             elif isinstance(value, Scaled):
-                result[key] = self._texture(value.picture, where, sources)
+                result[key] = self._texture(self._limited(key, value.picture, where), where, sources)
                 if not numpy.allclose(value.factor, 1):
                     result[key]["factor"] = grey(value.factor)
             else:
@@ -74,6 +78,17 @@ class Materials:
         if "of" in weight:
             return {**weight, "of": self._finished_weight(weight["of"], where, sources)}
         return weight
+
+    def _limited(self, key, picture, where):
+        """A picture of shares, from 0 to 1, and of light, which is not negative."""
+        if picture.image is not None and not picture.image.is_float:
+            return picture
+        pixels = picture.pixels
+        most = numpy.inf if key in COLORS and key not in COLORS_TO_1 else 1.0
+        if pixels[..., :3].min() >= 0 and pixels[..., :3].max() <= most:
+            return picture
+        self._report.add(where, f"texels of {picture.name} beyond what a {key} can be", f"limited to {'0 and more' if most > 1 else '0 to 1'}")
+        return picture.with_pixels(numpy.clip(pixels, 0, most))
 
     def _texture(self, picture, where, sources):
         sources.append(picture.source)

@@ -35,7 +35,7 @@ def _transparent(surfaces, node):
 
 
 def _widths(surfaces, node, anisotropy_name="Anisotropy"):
-    """Keys of the width of microfacets. Cycles: α = roughness², along the tangent times and across it over the aspect."""
+    """Keys of the width of microfacets. Cycles: α = roughness²."""
     roughness = surfaces.number(node, "Roughness")
     socket = node.inputs.get(anisotropy_name)
     strength = surfaces.values.constant(socket, node, anisotropy_name) if socket is not None else 0.0
@@ -46,11 +46,11 @@ def _widths(surfaces, node, anisotropy_name="Anisotropy"):
     value = float(mean(roughness)[0])
     if not isinstance(roughness, Constant):
         surfaces.values.report(node, "a picture of the roughness of what is anisotropic", f"its mean, {value:.3g}")
-    # The node "Glossy BSDF".
+    # Cycles: above 0 narrow along the tangent and wide across it, below 0 the other way round.
     strength = min(max(strength, -0.99), 0.99)
-    wide, narrow = (value**2 / (1 + strength), value**2 * (1 - strength)) if strength < 0 else (value**2 / (1 - strength), value**2 * (1 + strength))
+    along, across = (value**2 / (1 + strength), value**2 * (1 + strength)) if strength < 0 else (value**2 * (1 - strength), value**2 / (1 - strength))
+    along, across = min(along, 1.0), min(across, 1.0)
     tangent(surfaces, node)
-    along, across = (min(wide, 1.0), min(narrow, 1.0)) if strength >= 0 else (min(wide, 1.0), min(narrow, 1.0))
     return {"alpha_u": along, "alpha_v": across}
 
 
@@ -67,8 +67,9 @@ def _glossy(surfaces, node):
         value = float(mean(rough)[0]) if rough is not None else math.sqrt(max(widths.get("alpha_u", 0.0), widths.get("alpha_v", 0.0)))
         kept = share_kept(value)
         brightest = most(color)
-        if brightest / kept > 1 and kept < 0.99:
-            surfaces.values.report(node, "light that microfacets send to each other (Multiscatter GGX)", f"single scattering; up to {100 * (1 - kept):.0f} % darker")
+        if kept < 0.99:
+            darker = f", {100 * (1 - 1 / max(brightest / kept, 1)):.0f} % darker" if brightest > kept else ""
+            surfaces.values.report(node, "light that microfacets send to each other (Multiscatter GGX)", f"as much light by single scattering{darker}")
         entry["specular_reflectance"] = surfaces.scaled(color, min(1 / kept, 1 / max(brightest, 1e-6) if brightest <= 1 else 1.0))
     return entry
 
@@ -144,6 +145,17 @@ def _refraction(surfaces, node):
 
 def _metallic(surfaces, node):
     widths = _widths(surfaces, node)
+    multiple = node.distribution == "MULTI_GGX"
+    if node.fresnel_type != "PHYSICAL_CONDUCTOR" and "roughness" in widths and node.distribution != "BECKMANN":
+        if not is_constant(surfaces.color(node, "Edge Tint"), [1, 1, 1]):
+            surfaces.values.report(node, "an edge tint", "white edges (Schlick)")
+        return {
+            "type": "principled", "base_color": surfaces.color(node, "Base Color"), "metallic": 1.0, **widths, "masking": "height_correlated",
+            "energy_compensation": multiple, **surfaces.normal(node), **_film(surfaces, node),
+        }
+    rough = max(float(mean(widths["roughness"])[0]) ** 2 if "roughness" in widths else 0.0, widths.get("alpha_u", 0.0), widths.get("alpha_v", 0.0))
+    if multiple and rough > 0.05:
+        surfaces.values.report(node, "light that microfacets send to each other (Multiscatter GGX)", "single scattering, which is darker")
     entry = {"type": "conductor", **widths, "distribution": "beckmann" if node.distribution == "BECKMANN" else "ggx", **surfaces.normal(node)}
     if node.fresnel_type == "PHYSICAL_CONDUCTOR":
         for key, name in (("eta", "IOR"), ("k", "Extinction")):

@@ -1,4 +1,4 @@
-"""Ten scenes made by script, each of which shows what one part of the exporter says."""
+"""Scenes made by script, each of which shows what one part of the exporter says."""
 
 import math
 
@@ -256,6 +256,26 @@ def principled():
     return scene
 
 
+def metals():
+    """Principled materials without a dielectric above a base that scatters: the two programs have the same model."""
+    scene = empty()
+    grey_world((0.35, 0.35, 0.35))
+    floor(simple("Floor", "BsdfPrincipled", Base_Color=(0.45, 0.42, 0.38), Specular_IOR_Level=0.0))
+    rows = (
+        ("Gold", dict(Base_Color=(1, 0.77, 0.34), Metallic=1.0, Roughness=0.2)),
+        ("Steel", dict(Base_Color=(0.6, 0.6, 0.65), Metallic=1.0, Roughness=0.6)),
+        ("Matt", dict(Base_Color=(0.3, 0.6, 0.3), Specular_IOR_Level=0.0)),
+        ("Half", dict(Base_Color=(0.7, 0.3, 0.2), Metallic=0.5, Roughness=0.3, Specular_IOR_Level=0.0)),
+        ("Glow", dict(Base_Color=(0.2, 0.2, 0.2), Specular_IOR_Level=0.0, Emission_Color=(0.2, 0.6, 1, 1), Emission_Strength=0.7)),
+        ("Veil", dict(Base_Color=(0.8, 0.2, 0.6), Specular_IOR_Level=0.0, Alpha=0.4)),
+    )
+    for index, (name, inputs) in enumerate(rows):
+        ball(name, simple(name, "BsdfPrincipled", **inputs), (1.5 * (index % 3) - 1.5, 1.6 * (index // 3) - 0.8, 0.6), 0.6)
+    lamp("AREA", 250, (2, -2, 3.5), (0.5, 0.4, 0), shape="SQUARE", size=1.5)
+    camera()
+    return scene
+
+
 def glass():
     """Glass, rough glass, a transmitting Principled body, a coloured one, and a thin sheet that lets half through."""
     scene = empty()
@@ -349,6 +369,8 @@ def textures():
     panels.append(nodes.show(nodes.node("BsdfDiffuse", Color=(0.7, 0.7, 0.7), Normal=bend)))
     holes = checks(32, 32, (0.9, 0.5, 0.1), (0.1, 0.5, 0.9), 4)
     holes[..., 3] = numpy.where((x - 0.5) ** 2 + (y - 0.5) ** 2 < 0.12, 0.25, 1.0)
+    # Pictures of floats are kept multiplied by their alpha.
+    holes[..., :3] *= holes[..., 3:]
     nodes = Nodes("Holes")
     holed = nodes.node("TexImage", {"image": image("Holes", holes, is_float=True)})
     panels.append(nodes.show(nodes.node(
@@ -417,4 +439,4 @@ def places():
     return scene
 
 
-SCENES = (sharp_lamps, soft_lamps, world_map, lenses, panoramas, principled, glass, trees, textures, places)
+SCENES = (sharp_lamps, soft_lamps, world_map, lenses, panoramas, metals, principled, glass, trees, textures, places)
