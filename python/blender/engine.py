@@ -29,7 +29,7 @@ def with_render_depsgraph(scene, work):
     render = scene.render
     kept = {name: getattr(render, name) for name in ("engine", "use_compositing", "use_sequencer", "use_border", "filepath")}
     try:
-        # What is not looked at need not be made; a small picture keeps the render's own buffers small.
+        # No picture is made, so nothing is done to it.
         render.engine = "GPT_EXPORT"
         render.use_compositing = render.use_sequencer = False
         bpy.ops.render.render(write_still=False, scene=scene.name)
@@ -57,8 +57,8 @@ def bake_world(world, size):
         scene.camera, scene.world = camera, world
         data.type = "PANO"
         data.panorama_type = "EQUIRECTANGULAR"
-        # Upright, facing −y: the middle of an environment's picture.
-        camera.rotation_euler = (numpy.pi / 2, 0, numpy.pi / 2 * -1)
+        # Upright, facing x: the middle of Blender's environment maps.
+        camera.rotation_euler = (numpy.pi / 2, 0, -numpy.pi / 2)
         scene.render.engine = "CYCLES"
         scene.cycles.samples = 1
         scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False

@@ -7,7 +7,7 @@ from .materials import Materials
 from .meshes import Meshes
 from .report import Report
 from .scene_file import SceneFile
-from .values import Values
+from .values import Values, mean
 
 SURFACES = ("MESH", "CURVE", "SURFACE", "META", "FONT")
 SILENT = ("CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE")
@@ -93,8 +93,6 @@ def lamp_factor(report):
             return numpy.ones(3)
         color = values.color(emission.inputs["Color"])
         strength = values.constant(emission.inputs["Strength"], emission, "Strength")
-        from .values import mean
-
         return numpy.array(mean(color)[:3], dtype=float) * strength
 
     return factor

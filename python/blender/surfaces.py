@@ -6,7 +6,7 @@ The parts of a blend are entries themselves. `materials` writes them, `shaders` 
 import numpy
 
 from . import weights
-from .values import Constant, Picture, is_constant, origin
+from .values import Constant, Picture, origin
 
 BLACK = Constant([0, 0, 0, 1])
 WHITE = Constant([1, 1, 1, 1])
@@ -42,8 +42,7 @@ class Surfaces:
             self.values.report(output, "displacement", "left out")
         elif origin(output.inputs["Displacement"]) is not None:
             self.values.report(output, "displacement as bumps", "left out; a Bump node comes across")
-        surface = self.of(output.inputs["Surface"])
-        return surface
+        return self.of(output.inputs["Surface"])
 
     def of(self, socket):
         output = origin(socket)

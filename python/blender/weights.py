@@ -6,7 +6,7 @@ A weight is a tuple: ("is", heuristic of a scene file), ("value", constant or pi
 
 import numpy
 
-from .values import Constant, Picture, is_constant, origin
+from .values import Constant, origin
 
 STEPS = 24
 """Steps by which a curve over a weight is said."""

@@ -5,7 +5,7 @@ import math
 import numpy
 
 from .picture_file import write_exr
-from .values import Constant, Picture, Textures, Values, is_constant, mean, origin
+from .values import Constant, Picture, Textures, Values, mean, origin
 
 BAKED_SIZE = (2048, 1024)
 
@@ -37,7 +37,7 @@ def export(world, file, report, bake=None):
     report.add(where, f"the nodes of {surface.node.bl_label}", f"a map of {BAKED_SIZE[0]} × {BAKED_SIZE[1]} made by Cycles")
     path, reference = file.new_file(world.name, ".exr")
     write_exr(path, bake(world, BAKED_SIZE)[..., :3])
-    # Blender's map has −x in its left edge, turned from ours by a quarter.
+    # Blender's map is turned from ours by a quarter.
     file.lights.append({"type": "environment", "file": reference, "rotate": 90.0})
 
 
@@ -89,7 +89,7 @@ def _map(node, factor, values, file, report, where):
     else:
         path, reference = file.new_file(image.name, ".exr")
         write_exr(path, picture.pixels[..., :3])
-    # The picture's middle is −y of Blender… turned from ours by a quarter.
+    # Blender's map is turned from ours by a quarter; what its directions are turned by turns the map the other way.
     entry = {"type": "environment", "file": reference, "rotate": 90.0 - math.degrees(turned)}
     if factor != 1:
         entry["scale"] = factor
