@@ -34,6 +34,8 @@ def export(scene, camera_object, file, report):
     else:
         report.add(where, f"a camera of the type {data.type}", "a perspective camera stands in its place")
         _perspective(scene, data, camera, width, height)
+    if data.clip_start > 0.1001 or data.clip_end < 99.9:
+        report.add(where, f"clipping at {data.clip_start:g} and {data.clip_end:g}", "everything before the camera is seen")
     if data.type != "PANO":
         _depth_of_field(scene, camera_object, camera, where, report)
     elif data.dof.use_dof:

@@ -439,4 +439,52 @@ def places():
     return scene
 
 
+def parallel():
+    """An orthographic camera with shift, in an upright picture."""
+    scene = places()
+    camera(location=(0, -7, 3.4), type="ORTHO", ortho_scale=6, shift_x=0.1, shift_y=0.05)
+    scene.render.resolution_x, scene.render.resolution_y = SIZE[1], SIZE[0]
+    return scene
+
+
+def fisheye():
+    """An equisolid fisheye that reaches to the corners."""
+    scene = panoramas()
+    lens = scene.camera.data
+    lens.panorama_type, lens.fisheye_lens, lens.fisheye_fov = "FISHEYE_EQUISOLID", 15, 2 * math.pi
+    return scene
+
+
+def brushed():
+    """Anisotropic metal, along and across, by Glossy and by Principled."""
+    scene = empty()
+    grey_world((0.4, 0.4, 0.4))
+    floor()
+    for index, (kind, strength) in enumerate((("glossy", 0.7), ("glossy", -0.7), ("principled", 0.8))):
+        nodes = Nodes(f"Brushed {index}")
+        along = nodes.node("Tangent", {"direction_type": "UV_MAP"})
+        if kind == "glossy":
+            shader = nodes.node("BsdfAnisotropic", {"distribution": "GGX"}, Color=(0.8, 0.8, 0.8), Roughness=0.4, Anisotropy=strength, Tangent=along)
+        else:
+            shader = nodes.node("BsdfPrincipled", {"distribution": "GGX"}, Base_Color=(0.8, 0.8, 0.8), Metallic=1.0, Roughness=0.4,
+                                Anisotropic=strength, Tangent=along)
+        ball(f"Ball {index}", nodes.show(shader), (1.4 * index - 1.4, 0, 0.6), 0.6)
+    lamp("AREA", 250, (2, -2, 3.5), (0.5, 0.4, 0), shape="SQUARE", size=1.5)
+    camera()
+    return scene
+
+
+def sky():
+    """A world of nodes that Cycles makes a map of."""
+    scene = places()
+    tree = scene.world.node_tree
+    texture = tree.nodes.new("ShaderNodeTexSky")
+    texture.sky_type, texture.sun_direction = "PREETHAM", (0.3, 0.5, 0.6)
+    tree.links.new(texture.outputs[0], tree.nodes["Background"].inputs["Color"])
+    tree.nodes["Background"].inputs["Strength"].default_value = 0.1
+    return scene
+
+
+FURTHER = (parallel, fisheye, brushed, sky)
+
 SCENES = (sharp_lamps, soft_lamps, world_map, lenses, panoramas, metals, principled, glass, trees, textures, places)

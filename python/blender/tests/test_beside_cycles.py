@@ -65,6 +65,10 @@ FAULTS = {
     "trees": lambda: changed("weights", "heuristic", lambda found: {**found, "power": 1.1 * found["power"]} if found and "power" in found else found),
     "textures": lambda: mock.patch.object(module("values").Values, "_mapping", lambda *_: numpy.array([[2.0, 0, 0], [0, 1, 0]])),
     "places": in_viewport,
+    "parallel": lambda: camera_key("height", lambda height: 1.02 * height),
+    "fisheye": lambda: camera_key("fov", lambda fov: 1.02 * fov),
+    "brushed": lambda: changed("meshes", "uv_of", lambda uvs: uvs[:, ::-1]),
+    "sky": lambda: changed("engine", "bake_world", lambda pixels: pixels[:, ::-1]),
 }
 
 BEYOND = {"principled": 0.06}
@@ -102,7 +106,7 @@ def _tests(make):
     return agrees, is_noticed
 
 
-for _make in scenes.SCENES:
+for _make in (*scenes.SCENES, *scenes.FURTHER):
     _agrees, _is_noticed = _tests(_make)
     setattr(BesideCycles, f"test_{_make.__name__}", _agrees)
     setattr(BesideCycles, f"test_a_fault_in_{_make.__name__}_is_noticed", _is_noticed)
