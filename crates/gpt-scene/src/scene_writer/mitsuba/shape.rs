@@ -202,8 +202,8 @@ fn frame(u: DVec3, v: DVec3, middle: DVec3) -> DAffine3 {
     DAffine3 { matrix3: DMat3::from_cols(u, v, u.cross(v).normalize_or(DVec3::Z)), translation: middle }
 }
 
-/// Steps, or one of them.
-fn transform(written: &Value) -> DAffine3 {
+/// The map of a transform: steps, or one of them.
+pub fn transform(written: &Value) -> DAffine3 {
     match written {
         Value::Array(steps) => steps.iter().fold(DAffine3::IDENTITY, |so_far, written| step(written) * so_far),
         single => step(single),
