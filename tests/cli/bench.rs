@@ -164,6 +164,7 @@ fn stages_are_timed_and_the_pool_is_watched() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn features_are_compared_off_compiled_in_and_used() {
     if without_a_gpu() {
         return;

@@ -16,6 +16,7 @@ fn devices() -> &'static [&'static str] {
 }
 
 #[test]
+#[ignore = "slow"]
 fn paths_that_never_end_are_given_up_when_the_time_is_up() {
     let place = Workplace::new();
     fs::write(place.path("mirrors.toml"), MIRROR_BOX).expect("a file");
@@ -32,6 +33,7 @@ fn paths_that_never_end_are_given_up_when_the_time_is_up() {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "slow"]
 fn paths_that_never_end_are_given_up_at_an_interrupt() {
     let place = Workplace::new();
     fs::write(place.path("mirrors.toml"), MIRROR_BOX).expect("a file");
@@ -73,6 +75,7 @@ fn parts_of_strata_are_refused() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn a_time_limit_that_is_not_reached_changes_no_bit() {
     let place = Workplace::new();
     for device in devices() {

@@ -185,6 +185,7 @@ fn open_job_description_renders_frames() {
 /// With a chunk that is killed and one that is asked to stop on the way.
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "slow"]
 fn slurm_renders_a_picture_in_chunks() {
     if !are_installed(&["sbatch", "slurmctld", "slurmd"], "a job array on Slurm") {
         return;

@@ -71,6 +71,7 @@ fn timeout(fault: &str) -> &'static str {
 
 /// At twenty calls: none is a panic, none hangs, and each has the exit code that says what to do about it.
 #[test]
+#[ignore = "slow"]
 fn failing_drivers_are_errors_with_the_contracts_exit_codes() {
     let Some(layer) = layer() else { return };
     let place = Workplace::new();
@@ -116,6 +117,7 @@ fn failing_drivers_are_errors_with_the_contracts_exit_codes() {
 
 /// A device without memory for the whole film renders it in bands, which are the same picture.
 #[test]
+#[ignore = "slow"]
 fn memory_forces_bands() {
     let Some(layer) = layer() else { return };
     let place = Workplace::new();
@@ -139,6 +141,7 @@ fn memory_forces_bands() {
 /// The samples so far are saved beside a finished picture, and the message says so, however the render was to
 /// end.
 #[test]
+#[ignore = "slow"]
 fn a_lost_device_leaves_the_picture_so_far() {
     let Some(layer) = layer() else { return };
     let place = Workplace::new();
@@ -172,6 +175,7 @@ fn a_lost_device_leaves_the_picture_so_far() {
 
 /// In the other commands as well.
 #[test]
+#[ignore = "slow"]
 fn every_command_survives_a_lost_device() {
     let Some(layer) = layer() else { return };
     let place = Workplace::new();
@@ -207,6 +211,7 @@ fn an_adapter_that_does_not_open_is_told_of() {
 /// Whatever hangs, a render that is asked to end does so within ten seconds, with what it has: a submission, and what comes before the first.
 #[cfg(unix)]
 #[test]
+#[ignore = "slow"]
 fn a_render_that_hangs_ends_when_it_is_asked_to() {
     let Some(layer) = layer() else { return };
     for (fault, code, words, files) in [
@@ -238,6 +243,7 @@ fn a_render_that_hangs_ends_when_it_is_asked_to() {
 
 /// The state that a lost device leaves is gone on from, on the same device bit for bit, and on another.
 #[test]
+#[ignore = "slow"]
 fn a_render_goes_on_after_its_device_was_lost() {
     let Some(layer) = layer() else { return };
     let place = Workplace::new();

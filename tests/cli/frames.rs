@@ -74,6 +74,7 @@ fn place() -> Workplace {
 
 /// Whatever was rendered before it on the same device, a frame is the same file.
 #[test]
+#[ignore = "slow"]
 fn a_frame_of_several_is_the_frame_alone() {
     let place = place();
     for device in devices() {

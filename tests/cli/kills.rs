@@ -205,6 +205,7 @@ fn place_to_kill_in() -> Workplace {
 }
 
 #[test]
+#[ignore = "slow"]
 fn a_render_that_is_killed_goes_on_bit_for_bit() {
     let in_full = in_full("200 kills of renders, and kills of every kind of render on graphics devices");
     let kills = if in_full { (12, 6) } else { (2, 1) };
@@ -218,7 +219,7 @@ fn a_render_that_is_killed_goes_on_bit_for_bit() {
 
 #[test]
 #[ignore = "long: kills of pictures in bands"]
-fn a_picture_in_bands_that_is_killed_goes_on_bit_for_bit() {
+fn long_a_picture_in_bands_that_is_killed_goes_on_bit_for_bit() {
     let place = place_to_kill_in();
     let has_layer = super::faults::layer().is_some();
     for device in devices().into_iter().filter(|device| *device == "cpu" || has_layer) {

@@ -21,6 +21,7 @@ fn grid(n: usize) -> String {
 }
 
 #[test]
+#[ignore = "slow"]
 fn memory_is_what_was_stated() {
     let place = Workplace::new();
     fs::write(place.path("grid.obj"), grid(150)).expect("a model");

@@ -28,6 +28,7 @@ fn pixels(place: &Workplace, scene: &str) -> Vec<[f32; 3]> {
 
 /// Models that were refused or lost a face before render as the plain quad does, with a warning that `--strict` makes an error.
 #[test]
+#[ignore = "slow"]
 fn the_rest_of_a_model_is_rendered() {
     let place = place();
     let plain = pixels(&place, "scene.toml");
@@ -63,6 +64,7 @@ fn the_rest_of_a_model_is_rendered() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn the_rest_of_a_material_counts() {
     let place = place();
     let plain = pixels(&place, "scene.toml");

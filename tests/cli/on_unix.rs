@@ -100,6 +100,7 @@ fn the_second_interrupt_quits_at_once_and_leaves_nothing_half_written() {
 
 /// Signals that end a program leave nothing half written; what asks it to end has it save; `nohup` is obeyed.
 #[test]
+#[ignore = "slow"]
 fn signals_are_obeyed_and_nothing_is_left() {
     let place = Workplace::new();
     for signal in ["-TERM", "-HUP", "-XCPU", "-QUIT"] {

@@ -33,6 +33,7 @@ fn differences(a: &Channels, b: &Channels) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "slow"]
 fn layers_of_regions_are_those_of_the_whole_picture() {
     let place = Workplace::new();
     for device in devices() {
@@ -71,6 +72,7 @@ fn layers_of_regions_are_those_of_the_whole_picture() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn layers_of_parts_are_joined_to_those_of_one_render() {
     let place = Workplace::new();
     for device in devices() {
@@ -153,6 +155,7 @@ fn finished_layers_are_not_rendered_again() {
 /// An interrupt while a layer is rendered keeps its state, and the picture is the uninterrupted one.
 #[cfg(unix)]
 #[test]
+#[ignore = "slow"]
 fn a_layer_that_is_interrupted_goes_on() {
     let place = Workplace::new();
     let render = "render scene.toml --device cpu --size 64x48 --spp 800 --aov indirect -o a.exr";

@@ -15,6 +15,7 @@ pub fn most_units(a: &Image, b: &Image) -> u32 {
 
 /// Whatever the order of the parts: the same file, and but for a last place the picture of one render.
 #[test]
+#[ignore = "slow"]
 fn parts_are_joined_to_the_picture_of_one_render() {
     let place = Workplace::new();
     for device in devices() {
@@ -71,6 +72,7 @@ fn the_variances_of_parts_are_those_of_layers() {
 
 /// A region has the random numbers of the whole picture.
 #[test]
+#[ignore = "slow"]
 fn a_region_is_the_same_pixels_of_the_whole_picture() {
     let place = Workplace::new();
     for device in devices() {

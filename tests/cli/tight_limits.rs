@@ -34,6 +34,7 @@ fn little_memory_for_threads_is_no_panic() {
 /// A state in its place makes it not the end: another try may have more.
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "slow"]
 fn memory_that_runs_out_midway_is_told_from_a_scene_that_does_not_fit() {
     let place = Workplace::new();
     let render = "render scene.toml --device cpu -q --size 1024x1024 --spp 1000000 --max-depth 1";

@@ -40,6 +40,7 @@ fn verify_ends_with_its_verdict() {
 
 /// Either place for the film's sums can be asked for, and the plan says which one it takes.
 #[test]
+#[ignore = "slow"]
 fn the_film_is_where_it_is_asked_to_be() {
     if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
         return;
@@ -72,6 +73,7 @@ fn verify_on_the_cpu_holds_the_reference_against_closed_forms() {
 
 /// Red with each fault, green without; the pictures are left behind, and the command for the worst path shows where the two part.
 #[test]
+#[ignore = "slow"]
 fn verify_notices_planted_faults_and_says_how_to_follow_the_worst_path() {
     if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
         return;
@@ -131,7 +133,7 @@ fn verify_follows_one_path_on_both_devices() {
 
 #[test]
 #[ignore = "long: gpt verify of every built-in scene"]
-fn verify_without_a_scene_tries_closed_forms_and_every_built_in_scene() {
+fn long_verify_without_a_scene_tries_closed_forms_and_every_built_in_scene() {
     if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
         return;
     }

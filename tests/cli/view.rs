@@ -372,6 +372,7 @@ fn tev_receives_the_picture() {
 
 /// The program is asked to end while the viewer stands still, and ends as soon as any render.
 #[test]
+#[ignore = "slow"]
 fn a_tev_that_takes_nothing_does_not_hold_the_end() {
     let place = Workplace::new();
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");

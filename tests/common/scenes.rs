@@ -1,6 +1,6 @@
 //! Built-in scenes.
 
-/// The scenes of the short form of `tests/gpu/agreement`. A test holds that among them they use every switch
+/// The scenes of `tests/gpu/agreement`, but for `--full`. A test holds that among them they use every switch
 /// of the shaders that any built-in scene uses on a software device, but for those below.
 pub const ENOUGH: [&str; 5] = ["examples", "paints", "terrace", "bazaar", "arbour"];
 

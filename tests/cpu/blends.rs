@@ -155,6 +155,7 @@ fn blended_balls() -> Scene {
 }
 
 #[test]
+#[ignore = "slow"]
 fn pick_and_mixture_agree() {
     let mut scene = blended_balls();
     let mixture = replications(&scene, 100);
@@ -166,6 +167,7 @@ fn pick_and_mixture_agree() {
 /// Light sampling from both sides of a surface that transmits, shadow rays from the side the light is on, and densities that
 /// match: the estimators agree on a ball and a pane of each kind between light, floor and camera.
 #[test]
+#[ignore = "slow"]
 fn the_estimators_agree_on_rough_materials() {
     let kinds = [
         ("rough glass", rough_glass(Microfacets::ggx(grey(0.4)))),

@@ -121,6 +121,7 @@ fn studied() -> [Scene; 2] {
 }
 
 #[test]
+#[ignore = "slow"]
 fn built_in_scenes_use_every_switch() {
     let built_in: Vec<Scene> = load::builtin_names().map(|name| load::load(Some(name)).expect("it is built in")).collect();
     let hardware = DeviceLimits::default();
@@ -181,6 +182,7 @@ fn built_in_scenes_use_every_switch() {
 /// The scenes that `tests/gpu/agreement` compares in its short form miss no switch of the others, on the
 /// devices that it runs on.
 #[test]
+#[ignore = "slow"]
 fn a_few_built_in_scenes_use_every_switch_that_any_uses() {
     let software = DeviceLimits {
         software: true,

@@ -61,6 +61,7 @@ fn floor_under_a_lamp(lamp: Lamp, half_width: f64, height: f64) -> Scene {
 }
 
 #[test]
+#[ignore = "slow"]
 fn several_light_samples_are_taken_where_they_pay() {
     assert_eq!(light_samples(&built_in("cornell")), [1, 1]);
     let mut by_power = built_in("veach-mis");
@@ -71,6 +72,7 @@ fn several_light_samples_are_taken_where_they_pay() {
 
 /// The choice belongs to the whole picture: whoever renders a part of it and states how many samples the whole has comes to the same.
 #[test]
+#[ignore = "slow"]
 fn the_choice_depends_on_neither_the_seed_nor_the_part() {
     let mut scene = built_in("veach-mis");
     scene.render.expected_spp = 256.into();
@@ -88,6 +90,7 @@ fn the_choice_depends_on_neither_the_seed_nor_the_part() {
 
 /// Learning takes its share of the render: nothing is learned if that is over at once, by its samples, by a time limit or on a graphics card.
 #[test]
+#[ignore = "slow"]
 fn short_renders_learn_nothing() {
     let choice = |spp: u32, effort: Effort| {
         let mut scene = built_in("veach-mis");
@@ -176,7 +179,7 @@ fn a_guide_learns_of_as_many_paths_as_are_wanted() {
 /// In the cellar a guide of all rounds pays, and early looks do not end it.
 #[test]
 #[ignore = "long: learning a guide of all rounds that has to pay"]
-fn a_guide_that_pays_late_is_kept() {
+fn long_a_guide_that_pays_late_is_kept() {
     let mut scene = built_in("cellar");
     scene.render.guiding = Guiding::Auto;
     let learned = settle(&scene, Effort::default()).expect("the reference can render the scene");
@@ -186,6 +189,7 @@ fn a_guide_that_pays_late_is_kept() {
 
 /// A render whose settings leave it open is, sample by sample, the one whose settings say what the trial run chose, and not that of one light sample by power.
 #[test]
+#[ignore = "slow"]
 fn what_is_chosen_is_what_is_rendered() {
     let open = built_in("veach-mis");
     let with = |settings: RenderSettings| Scene { render: settings, ..open.clone() };
@@ -201,6 +205,7 @@ fn what_is_chosen_is_what_is_rendered() {
 
 /// A lamp that fills half the sky of the floor below it is drawn by solid angle; one like a point is not, nor one of many triangles.
 #[test]
+#[ignore = "slow"]
 fn only_lamps_seen_under_large_angles_are_drawn_by_solid_angle() {
     // Rectangles are drawn by area below a larger angle than triangles are.
     for (lamp, least) in [(Lamp::Rectangle, 0.1), (Lamp::Mesh(1), 0.001)] {

@@ -100,6 +100,7 @@ fn assert_all_agree(ways: Vec<(String, Scene)>) {
 }
 
 #[test]
+#[ignore = "slow"]
 fn spheres_look_the_same_whatever_their_points_are_drawn_by() {
     let ways = [LightSampling::Cone, LightSampling::Visible, LightSampling::Area].into_iter().flat_map(|strategy| {
         [Estimator::Mis, Estimator::Nee].map(|estimator| {
@@ -115,6 +116,7 @@ fn spheres_look_the_same_whatever_their_points_are_drawn_by() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn portals_change_no_picture() {
     let mut by_bsdf = load(&[SKY]);
     by_bsdf.render.estimator = Estimator::Bsdf;
@@ -140,6 +142,7 @@ const LAMPS: &str = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1, 2, -1]\nedge
                      material = \"lamp\"\n[[light]]\ntype = \"point\"\nposition = [-1.5, 0.6, 1.2]\nintensity = 0.4\n";
 
 #[test]
+#[ignore = "slow"]
 fn a_tree_of_lights_changes_no_picture() {
     let lamps = |light_choice, estimator| {
         let mut scene = load(&[LAMPS, "[[light]]\ntype = \"sky\"\nzenith = 0.2\nhorizon = 0.1\nground = 0\n"]);
@@ -158,6 +161,7 @@ fn a_tree_of_lights_changes_no_picture() {
 
 /// Cells choose the environment and its portals as well as lamps and the sun.
 #[test]
+#[ignore = "slow"]
 fn cells_of_lights_at_infinity_change_no_picture() {
     let sun = "[[light]]\ntype = \"directional\"\ndirection = [-0.4, -1, -0.3]\nirradiance = 0.5\n";
     let lit = |light_choice, estimator| {
@@ -204,6 +208,7 @@ fn hall(triangles: usize) -> Scene {
 
 /// The seed, the number of samples and the way light is sampled change nothing; the camera and the size of the film do.
 #[test]
+#[ignore = "slow"]
 fn what_is_learned_of_lights_depends_on_the_scene_and_its_film_alone() {
     let scene = hall(0);
     let words = learned(&scene).expect("there are many lights, and `auto` tries them");
@@ -222,6 +227,7 @@ fn what_is_learned_of_lights_depends_on_the_scene_and_its_film_alone() {
 
 /// Lists of lights help where they hold what reaches a place.
 #[test]
+#[ignore = "slow"]
 fn cells_of_lights_are_taken_where_lists_hold_the_light() {
     let choice =
         |scene: &Scene| settle(scene, Effort::default()).expect("the reference can render the scene").scene.render.light_choice;
@@ -249,6 +255,7 @@ fn cells_of_lights_are_taken_where_lists_hold_the_light() {
 /// light: a weak lamp beside a strong one behind a wall. It does not if all of them light what is seen, nor
 /// if there are several triangles of one lamp.
 #[test]
+#[ignore = "slow"]
 fn cells_of_few_lights_are_taken_where_a_trial_run_finds_them_better() {
     let settled = |parts: &[&str]| {
         let mut scene = load(parts);
@@ -274,6 +281,7 @@ fn cells_of_few_lights_are_taken_where_a_trial_run_finds_them_better() {
 
 /// A rectangle, and triangles that are level, aslant and upright.
 #[test]
+#[ignore = "slow"]
 fn flat_lamps_look_the_same_whatever_their_points_are_drawn_by() {
     let rectangle = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1.5, 1.7, -1]\nedge_u = [3, 0, 0]\nedge_v = [0, 0, 2]\nmaterial = \"lamp\"\n";
     let triangles = "[[shape]]\ntype = \"mesh\"\nmaterial = \"lamp\"\n\
@@ -337,6 +345,7 @@ const STENCIL: &str = "[[material]]\nname = \"glow\"\ntype = \"emissive\"\nradia
                        weight = { type = \"texture\", texture = \"picture\" }\n";
 
 #[test]
+#[ignore = "slow"]
 fn screens_look_the_same_whatever_their_points_are_drawn_by() {
     let screens = [
         (TextureFilter::Nearest, QUAD.to_owned()),
@@ -409,6 +418,7 @@ fn on_globe(u: f64, v: f64) -> [f64; 3] {
 
 /// A screen of which one texel shines has at most twice the error of a lamp of that size, whatever its shape and its material. Neither is in view.
 #[test]
+#[ignore = "slow"]
 fn a_bright_texel_is_found_as_a_lamp_of_its_size_is() {
     let tube = TUBE.replace("2.2, 0.5]", "3, 0]").replace("2.2", "3");
     let globe = GLOBE.replace("2.3", "3.2").replace("transform = [{ rotate = [0, 1, 0], degrees = 20 }]\n", "");

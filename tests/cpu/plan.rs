@@ -328,6 +328,7 @@ fn the_number_of_cores_does_not_show() {
 /// Settings that are there to compare strategies leave no word in kernels of scenes that have nothing for them to change, and each does where it is
 /// something.
 #[test]
+#[ignore = "slow"]
 fn what_is_studied_is_compiled_only_where_it_is() {
     let texts = |name: &str, change: &dyn Fn(&mut RenderSettings)| -> Vec<String> {
         let mut scene = load::load(Some(name)).expect("built-in scenes load");

@@ -84,6 +84,7 @@ fn the_suite_is_as_large_as_it_says_and_each_test_is_one() {
 
 /// The reference renders every truth. Mistakes that are planted into its pictures, whose noise stays, are found, and called by their names.
 #[test]
+#[ignore = "slow"]
 fn the_reference_agrees_with_every_truth_and_planted_mistakes_are_named() {
     let tests = all_tests();
     let spp = samples();
@@ -126,6 +127,7 @@ fn the_reference_agrees_with_every_truth_and_planted_mistakes_are_named() {
 
 /// Scenes with a mistake planted into them render to pictures that are found to differ, and the mistake is called by its name.
 #[test]
+#[ignore = "slow"]
 fn mistakes_in_scenes_are_found() {
     // The samples that the suite's runs have.
     let (tests, spp) = (all_tests(), 256);

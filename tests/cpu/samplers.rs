@@ -122,6 +122,7 @@ fn star_discrepancy_in_closed_form() {
 /// Every prefix of a low-discrepancy sequence is far evener than random points, in every pair that a path uses; of strata, every whole
 /// set. The bounds are ratios to random points, averaged over lengths and seeds.
 #[test]
+#[ignore = "slow"]
 fn prefixes_are_evener_than_random_points() {
     let counts = [16, 50, 100, 256, 777];
     let ratio = |sampler, pair| {
@@ -226,6 +227,7 @@ fn correlations_are_noticed() {
 
 /// Pairs of dimensions over the samples of one pixel: no grid cell is empty or crowded, as with dimensions that run in step.
 #[test]
+#[ignore = "slow"]
 fn samples_of_a_pixel_do_not_run_in_step() {
     let count = 1024;
     // The first dimensions; later ones of Halton need more samples.
@@ -247,6 +249,7 @@ fn samples_of_a_pixel_do_not_run_in_step() {
 
 /// Honsdorf's figure 43: ∫ x³ over [0, 1] is ¼, drawn with density 1 and with density 2x, at 25, 100, 400 and 1000 samples.
 #[test]
+#[ignore = "slow"]
 fn the_integral_of_x_cubed() {
     // By uniform x and by x = √u, with the same numbers.
     let estimates = |kind, count, seed| {

@@ -100,6 +100,7 @@ fn all_names() -> BTreeSet<&'static str> {
 /// All, none and each alone, and so many others that every two switches stand in all four ways, each with what the table requires: a
 /// switch that needs another, or excludes one, and does not say so in the table shows here. The long form has each missing too.
 #[test]
+#[ignore = "slow"]
 fn every_pair_of_switches_composes_to_valid_shaders() {
     let everything = all_names();
     let mut sets: BTreeSet<BTreeSet<&'static str>> = by_bits();

@@ -65,6 +65,7 @@ fn light_in_view() -> Scene {
 }
 
 #[test]
+#[ignore = "slow"]
 fn sums_hold_their_precision_at_65536_samples() {
     const SPP: u32 = 65_536;
     let scene = light_in_view();
@@ -127,6 +128,7 @@ fn samples_are_counted_beyond_the_numbers_of_single_precision() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn two_halves_of_the_samples_make_the_whole_picture() {
     let mut scene = load::load(Some("cornell")).expect("it is built in");
     verify::shrink(&mut scene, 32);
@@ -149,6 +151,7 @@ fn two_halves_of_the_samples_make_the_whole_picture() {
 
 /// The picture is the same, whether it is made in one band or in many, with passes of any size.
 #[test]
+#[ignore = "slow"]
 fn bands_cover_the_picture_and_do_not_show() {
     let mut scene = load::load(Some("spheres")).expect("it is built in");
     scene.film.size = [1500, 1000];
@@ -230,6 +233,7 @@ fn rows(bands: &[Band]) -> u32 {
 
 /// However large: samples go over all of it before a pixel gets its second one.
 #[test]
+#[ignore = "slow"]
 fn an_interrupted_picture_is_whole() {
     let mut scene = load::load(Some("spheres")).expect("it is built in");
     scene.film.size = [1500, 1000];
@@ -245,6 +249,7 @@ fn an_interrupted_picture_is_whole() {
 
 /// Pixels differ where a render ends in the middle of an iteration. Each has, bit for bit, what a render of as many samples gives it.
 #[test]
+#[ignore = "slow"]
 fn pixels_say_how_many_samples_they_have() {
     let mut scene = load::load(Some("spheres")).expect("it is built in");
     scene.film.size = [16, 160];

@@ -132,6 +132,7 @@ fn luminances(pixels: &[[f32; 3]]) -> Vec<f64> {
 }
 
 #[test]
+#[ignore = "slow"]
 fn guided_paths_agree_path_by_path() {
     let Some(device) = DEVICE.as_ref() else { return };
     let scene = round_the_corner();
@@ -212,11 +213,13 @@ fn guided_pictures_are_the_same_from_run_to_run_and_in_parts() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn guided_paths_have_the_same_mean() {
     have_the_same_mean(round_the_corner(), 256);
 }
 
 #[test]
+#[ignore = "slow"]
 fn guided_paths_in_fog_have_the_same_mean() {
     // Behind a wide wall unguided paths meet light so seldom that their mean is not known.
     have_the_same_mean(foggy_corner(2.0), 512);
@@ -249,6 +252,7 @@ fn a_guide_pays_where_light_is_hard_to_find() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn a_guide_pays_in_fog() {
     pays(foggy_corner(3.5), 0.8);
 }

@@ -73,6 +73,7 @@ fn agreement(a: &Pixels, b: &Pixels) -> f64 {
 
 /// Rounding decides at silhouettes and in refractions, in a few pixels.
 #[test]
+#[ignore = "slow"]
 fn both_devices_make_the_same_layers() {
     // Every layer of every scene takes a kernel of its own, and several in the wavefront.
     let everywhere =

@@ -108,6 +108,7 @@ fn expected(coverage: fn(f64, f64) -> f64, column: u32, row: u32) -> f64 {
 /// Every pixel's share of its closed form has the mean 1, by Student's t-test over pixels, which shift the sampler's sequence by hashes
 /// of their own; with 1 % of energy added the same test fails.
 #[test]
+#[ignore = "slow"]
 fn coverage_over_time_follows_its_closed_form() {
     let cases: Vec<Coverage> = coverages().into_iter().chain(cameras()).collect();
     let level = sidak(0.01, 3 * cases.len());
@@ -206,6 +207,7 @@ fn frozen(scene: &Scene, time: f64) -> Scene {
 
 /// A shutter that opens and closes at one instant sees the scene of that instant.
 #[test]
+#[ignore = "slow"]
 fn an_instant_is_the_still_scene() {
     let mut scene = stage();
     // Lamps that rest are drawn by the angle that they fill, and those that move by their area.

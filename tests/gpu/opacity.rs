@@ -313,6 +313,7 @@ fn verdict(device: &gpt::gpu::Device, on_gpu: &Scene, scene: &Scene, options: &P
 }
 
 #[test]
+#[ignore = "slow"]
 fn paths_and_shadow_rays_through_translucent_surfaces_agree() {
     let Some(device) = DEVICE.as_ref() else { return };
     let scene = load(ROOM);
@@ -363,6 +364,7 @@ fn means(device: &gpt::gpu::Device, scene: &Scene, options: &PlanOptions) -> Mom
 /// Light samples through translucent surfaces, and the weights of both ways of finding a light behind them, leave the mean where paths without light samples
 /// have it. Weights that do not add up to 1, and a mean 1 % off, are noticed.
 #[test]
+#[ignore = "slow"]
 fn light_behind_translucent_surfaces_has_the_mean_of_paths_alone() {
     let Some(device) = DEVICE.as_ref() else { return };
     let mut scene = load(ROOM);

@@ -67,6 +67,7 @@ fn picture(device: &Device, scene: &Scene, options: &PlanOptions) -> Vec<[u32; 3
 /// rays meet two primitives at the same distance, or an edge that the device counts to the other triangle, a
 /// path may differ: these scenes have next to none.
 #[test]
+#[ignore = "slow"]
 fn they_make_the_picture_of_our_hierarchy() {
     let Some(device) = RAY_QUERY_DEVICE.as_ref() else { return };
     let scenes = [
@@ -132,6 +133,7 @@ fn verified_they_are_used_unasked() {
 
 /// A shadow ray meets each shape at its nearest point, and must not come back to it.
 #[test]
+#[ignore = "slow"]
 fn shadow_rays_go_on_behind_translucent_surfaces_of_every_shape() {
     let Some(device) = RAY_QUERY_DEVICE.as_ref() else { return };
     let mut scene = small("arbour", [32, 20], 2);

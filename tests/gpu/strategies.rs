@@ -148,6 +148,7 @@ fn spread(pixels: &[[f32; 3]]) -> ([f64; 2], f64) {
 /// The thin-lens equation: a point at depth d is spread, in the plane in focus at f, over the aperture's shape times |1 − f/d|; in a
 /// window of parallel rays over its shape times |1 − d/f|.
 #[test]
+#[ignore = "slow"]
 fn a_small_light_is_as_large_as_the_thin_lens_equation_says() {
     let tangent = 20.0_f64.to_radians().tan();
     let projections = [
@@ -198,6 +199,7 @@ fn a_small_light_is_as_large_as_the_thin_lens_equation_says() {
 
 /// At later surfaces as well: light that comes by way of another surface keeps its mean.
 #[test]
+#[ignore = "slow"]
 fn several_light_samples_at_later_surfaces_have_the_same_mean() {
     use gpt::compare::{Moments, hypothesis};
     let mut scene = load::load(Some("cornell")).expect("it is built in");

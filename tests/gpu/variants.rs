@@ -47,6 +47,7 @@ fn in_hierarchy() -> PlanOptions {
 /// A packet's rays meet what each of them would meet alone: the nearest hit is the nearest, whoever else is on the way. Lanes without a
 /// ray are among them at every path's end, and where a subgroup has more lanes than the pass samples.
 #[test]
+#[ignore = "slow"]
 fn rays_in_packets_meet_what_they_meet_alone() {
     let [together, alone] = together_and_alone();
     let (in_chunks, film_in_buffers) = (in_chunks(), film_in_buffers());
@@ -94,6 +95,7 @@ fn packets_are_used_where_they_can_be() {
 /// Which place a path or a shadow ray has in a queue is nothing that its samples know of. Queues end within a subgroup at most edges, and
 /// lanes of one leave the scene, die and miss lights at different vertices.
 #[test]
+#[ignore = "slow"]
 fn places_taken_by_a_subgroup_at_once_change_nothing() {
     let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
     let alone = with_limits(|limits| limits.subgroups = false);
@@ -155,6 +157,7 @@ fn selected_pixels(device: &Device, scene: &Scene, stages: StageMode, traversal:
 /// kernel does that traces whole paths. So pictures are the same, bit for bit, and from run to run, with translucent surfaces that rays pass through, with
 /// shapes that move, and where pixels are listed.
 #[test]
+#[ignore = "slow"]
 fn several_light_samples_are_the_same_in_every_kernel() {
     let mut moving = load::load(Some("motion-blur")).expect("it is built in");
     moving.film.size = [32, 24];

@@ -140,7 +140,7 @@ const LAMP: &str = "[[light]]\ntype = \"point\"\nposition = [1, 2, 4]\nintensity
 
 #[test]
 #[ignore = "long: trial runs of surfaces in one place"]
-fn trial_runs_of_surfaces_in_one_place() {
+fn long_trial_runs_of_surfaces_in_one_place() {
     let _turn = take_turn();
     for (what, material, size) in [
         ("opaque", "type = \"diffuse\"\nreflectance = 0.5", 5000),
@@ -155,7 +155,7 @@ fn trial_runs_of_surfaces_in_one_place() {
 
 #[test]
 #[ignore = "long: trial runs of lamps and guides among much"]
-fn trial_runs_of_lamps_and_guides_among_much() {
+fn long_trial_runs_of_lamps_and_guides_among_much() {
     let _turn = take_turn();
     let veil = "type = \"diffuse\"\nreflectance = 0.5\nopacity = 0.5";
     let lamps: String =
@@ -167,7 +167,7 @@ fn trial_runs_of_lamps_and_guides_among_much() {
 
 #[test]
 #[ignore = "long: trial runs of needles across each other"]
-fn trial_runs_of_needles_across_each_other() {
+fn long_trial_runs_of_needles_across_each_other() {
     let _turn = take_turn();
     assert_bounded("needles", 10_000, |count| {
         let mut positions = String::new();

@@ -5,6 +5,7 @@
 //! file where the item stands. `mod child;` alone is no arrow, nor is what only tests import.
 
 mod comments;
+mod ignored_tests;
 mod imports;
 mod source;
 

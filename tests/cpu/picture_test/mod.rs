@@ -45,6 +45,7 @@ fn at_least(count: u64, trials: u64, probability: f64) -> f64 {
 /// A thousand runs of a scene against itself in the long form, golden picture and render anew each time: no more differences are found than the
 /// stated rate explains (binomial test, level 10⁻³). The first look alone would not keep the rate, since samples of a room have heavy tails.
 #[test]
+#[ignore = "slow"]
 fn a_scene_agrees_with_itself_as_often_as_is_stated() {
     let runs = if in_full("a thousand runs of a scene against itself; 12 are made") { 1000 } else { 12 };
     let settings = TestSettings { change: 0.5, false_alarms: 0.05, ..TestSettings::default() };
@@ -63,6 +64,7 @@ fn a_scene_agrees_with_itself_as_often_as_is_stated() {
 
 /// Ten changes that a person may make by mistake. Each is found by a render of 32 samples per pixel, most far below the change that is asked for.
 #[test]
+#[ignore = "slow"]
 fn each_of_ten_planted_changes_is_found() {
     let settings = TestSettings { change: 0.25, ..TestSettings::default() };
     let sound = cornell([16, 16]);

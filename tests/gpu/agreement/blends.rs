@@ -100,7 +100,7 @@ fn every_blend_agrees_for_both_ways_to_blend() {
 
 #[test]
 #[ignore = "long: each weight and each kind of blend alone"]
-fn every_weight_and_kind_of_blend_agrees_alone() {
+fn long_every_weight_and_kind_of_blend_agrees_alone() {
     for (name, weight) in BLEND_WEIGHTS {
         for mode in [BlendMode::Mixture, BlendMode::Pick] {
             let mut scene = stage(&blend("red", "mirror", weight));

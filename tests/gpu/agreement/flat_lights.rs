@@ -85,7 +85,7 @@ fn triangles_and_rectangles_drawn_by_solid_angle_agree() {
 
 #[test]
 #[ignore = "long: triangles and rectangles alone"]
-fn triangles_and_rectangles_drawn_by_solid_angle_agree_alone() {
+fn long_triangles_and_rectangles_drawn_by_solid_angle_agree_alone() {
     assert_agrees_by_solid_angle("rectangles", &load(&[RECTANGLES]));
     assert_agrees_by_solid_angle("triangles", &load(&[TRIANGLES]));
 }

@@ -62,6 +62,7 @@ fn stacks_in_blends_and_blends_in_stacks_agree() {
 
 /// The control: one of the stacks is a little different.
 #[test]
+#[ignore = "slow"]
 fn another_stack_on_the_wall_is_noticed() {
     let cells = stacks();
     let slab = |scene: &mut Scene| {

@@ -373,6 +373,7 @@ fn a_tree_of_lights_agrees() {
 /// Lamps are chosen by what reaches the place; as a wavefront, where surfaces let light through, and with
 /// several light samples.
 #[test]
+#[ignore = "slow"]
 fn cells_of_lights_agree() {
     let mut bazaar = super::small("bazaar", 48, 8);
     bazaar.render.light_choice = LightChoice::Cells;

@@ -240,7 +240,7 @@ fn every_lobe_and_texture_agrees() {
 
 #[test]
 #[ignore = "long: each example of a material, each lobe and each texture alone"]
-fn every_lobe_and_texture_agrees_alone() {
+fn long_every_lobe_and_texture_agrees_alone() {
     for (name, material) in load::file::material_examples() {
         assert_agrees(name, &stage(&material), &PlanOptions::default());
     }
@@ -303,7 +303,7 @@ fn with_edges(material: &str) -> Scene {
 
 #[test]
 #[ignore = "long: each map of heights or normals alone"]
-fn maps_of_heights_and_scaled_normals_agree() {
+fn long_maps_of_heights_and_scaled_normals_agree() {
     for (name, material) in RELIEFS {
         assert_agrees(name, &with_edges(material), &PlanOptions::default());
     }
@@ -312,7 +312,7 @@ fn maps_of_heights_and_scaled_normals_agree() {
 /// The control: with the surface's own in place of normals that look away, the picture is another one.
 #[test]
 #[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
-fn missing_mirrors_of_perturbed_normals_are_noticed() {
+fn long_missing_mirrors_of_perturbed_normals_are_noticed() {
     let theirs = with_edges(
         "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
     );
@@ -325,7 +325,7 @@ fn missing_mirrors_of_perturbed_normals_are_noticed() {
 /// The control: a coat without its map, and one that lies as the base below it, make another picture.
 #[test]
 #[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
-fn missing_normals_of_coats_are_noticed() {
+fn long_missing_normals_of_coats_are_noticed() {
     let coated =
         "type = \"principled\"\nbase_color = 0.1\nmetallic = 0\nroughness = 0.5\nclearcoat = 1\nclearcoat_roughness = 0.3\n";
     let theirs = stage(&format!("{coated}coat_normal_map = \"bumps\""));
@@ -340,7 +340,7 @@ fn missing_normals_of_coats_are_noticed() {
 /// The control: with the direction of u in place of a texture's, the picture is another one.
 #[test]
 #[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
-fn missing_directions_of_anisotropy_are_noticed() {
+fn long_missing_directions_of_anisotropy_are_noticed() {
     let brushed = "type = \"principled\"\nroughness = 0.4\nanisotropy = 0.9\n";
     let theirs = stage(&format!("{brushed}anisotropy_direction = \"bumps\""));
     let Some(verdict) = compare_unequal(&stage(brushed), &theirs) else { return };
@@ -350,7 +350,7 @@ fn missing_directions_of_anisotropy_are_noticed() {
 /// The control: without the shadow of the surface, the picture is another one.
 #[test]
 #[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
-fn missing_shadows_of_perturbed_normals_are_noticed() {
+fn long_missing_shadows_of_perturbed_normals_are_noticed() {
     let theirs =
         with_edges("type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true");
     let mut ours = theirs.clone();
@@ -362,7 +362,7 @@ fn missing_shadows_of_perturbed_normals_are_noticed() {
 /// The control: a tenth more height is noticed.
 #[test]
 #[ignore = "long: perturbed normals, coats, brushes and heights that are noticed alone, not on a grid"]
-fn other_heights_are_noticed() {
+fn long_other_heights_are_noticed() {
     let theirs = with_edges("type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"bumps\"\nbump_scale = 0.3");
     let mut ours = theirs.clone();
     for texture in &mut ours.textures {

@@ -212,6 +212,7 @@ fn ways() -> [(&'static str, PlanOptions); 4] {
 }
 
 #[test]
+#[ignore = "slow"]
 fn media_agree_in_every_way_to_run() {
     for (name, text) in [("fog", FOG), ("bodies", BODIES), ("clouds", CLOUDS)] {
         for (way, options) in ways() {

@@ -147,7 +147,7 @@ fn ways() -> [PlanOptions; 2] {
 
 #[test]
 #[ignore = "long: each moving shape alone"]
-fn every_moving_shape_agrees() {
+fn long_every_moving_shape_agrees() {
     for (index, (name, shape)) in MOVING.iter().enumerate() {
         assert_agrees(name, &stage(&[shape]), &ways()[index % 2]);
     }
@@ -194,6 +194,7 @@ fn filmed(projection: &str, [open, close]: [&str; 2]) -> Scene {
 
 /// By both kernels, with and without shapes that move as well; another way of the camera is noticed, and so is none.
 #[test]
+#[ignore = "slow"]
 fn a_camera_that_moves_agrees() {
     let everywhere = in_full("moving cameras of either projection with and without shapes that move");
     for (index, (projection, ends)) in

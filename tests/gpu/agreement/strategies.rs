@@ -38,7 +38,7 @@ const FILTERS: [(FilterKind, f64); 5] = [
 
 #[test]
 #[ignore = "long: every sampler alone"]
-fn every_sampler_agrees() {
+fn long_every_sampler_agrees() {
     for sampler in SamplerKind::ALL {
         // 13 samples make strata of unequal shape; more bounces than sequences cover.
         let mut scene = small("cornell", 32, 13);
@@ -54,7 +54,7 @@ fn every_sampler_agrees() {
 
 #[test]
 #[ignore = "long: every sampler of the pixel with each of three samplers"]
-fn every_sampler_of_the_pixel_agrees() {
+fn long_every_sampler_of_the_pixel_agrees() {
     let pixel_samplers = SamplerKind::ALL.map(PixelSampler::Other).into_iter().chain([PixelSampler::Centre]);
     for pixel_sampler in pixel_samplers {
         for sampler in [SamplerKind::Independent, SamplerKind::Halton, SamplerKind::Sobol] {
@@ -69,7 +69,7 @@ fn every_sampler_of_the_pixel_agrees() {
 
 #[test]
 #[ignore = "long: every filter alone"]
-fn every_filter_agrees() {
+fn long_every_filter_agrees() {
     for (kind, radius) in FILTERS {
         let mut scene = small("spheres", 32, 8);
         scene.film.filter = Filter { kind, radius };
@@ -97,7 +97,7 @@ fn through_a_lens(shape: ApertureShape, projection: Option<Projection>) -> Scene
 
 #[test]
 #[ignore = "long: every aperture with either projection"]
-fn every_aperture_and_projection_agrees() {
+fn long_every_aperture_and_projection_agrees() {
     let parallel = Projection::Orthographic { height: 5.0 };
     for projection in [None, Some(parallel)] {
         for shape in APERTURES {
@@ -151,6 +151,7 @@ fn another_camera_is_noticed() {
 
 /// Every setting by which strategies are compared, alone and together. A device that does without is noticed.
 #[test]
+#[ignore = "slow"]
 fn what_is_studied_agrees() {
     use gpt::scene::{Estimator, HemisphereSampling, MisHeuristic, PhongCosine, PhongHorizon, PhongSampling, RenderSettings};
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/figures/glossy-reflection.toml");

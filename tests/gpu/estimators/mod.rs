@@ -102,6 +102,7 @@ fn disagreements(scenes: &[(String, Features)]) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "slow"]
 fn estimators_agree_where_they_once_did_not() {
     let scenes = scenes::remembered().map(|(name, features)| (name.to_owned(), features));
     let found = disagreements(&scenes);
@@ -109,6 +110,7 @@ fn estimators_agree_where_they_once_did_not() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn estimators_agree_on_stacks_of_layers() {
     let scenes: Vec<_> = scenes::stacks().map(|(name, features)| (name.to_owned(), features)).collect();
     let found = disagreements(&scenes);
@@ -116,6 +118,7 @@ fn estimators_agree_on_stacks_of_layers() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn estimators_agree_on_features_at_random() {
     let count = if in_full("estimators on 60 scenes at random instead of 3") { 60 } else { 3 };
     let scenes: Vec<_> = (0..count).map(|number| (format!("scene {number}"), Features::at_random(number))).collect();

@@ -45,6 +45,7 @@ fn ways(settings: &[&str], first_seed: u32) -> Vec<Way> {
 }
 
 #[test]
+#[ignore = "slow"]
 fn what_is_studied_changes_no_mean() {
     let flipped = "phong_horizon = \"flipped\"";
     for (number, settings) in [

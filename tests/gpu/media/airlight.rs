@@ -26,6 +26,7 @@ fn per_channel(medium: &Medium, of: &dyn Fn(&airlight::Medium) -> f64) -> [f64; 
 }
 
 #[test]
+#[ignore = "slow"]
 fn a_point_light_in_fog_shows_its_airlight() {
     let hg = Phase::HenyeyGreenstein;
     let phases = [Phase::Isotropic, hg(0.7), hg(-0.5), Phase::Rayleigh, Phase::blend(hg(0.6), Phase::Rayleigh, 0.5)];

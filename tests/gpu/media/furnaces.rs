@@ -60,6 +60,7 @@ fn furnaces(albedo: f64) -> Vec<Truth> {
 }
 
 #[test]
+#[ignore = "slow"]
 fn media_without_absorption_show_the_sky() {
     assert_all_hold(&furnaces(1.0));
 }

@@ -63,6 +63,7 @@ fn block() -> String {
 }
 
 #[test]
+#[ignore = "slow"]
 fn light_along_a_line_through_a_grid_obeys_beers_law() {
     let medium =
         Medium { absorption: [0.3, 1.0, 3.0], emission: [0.0, 0.4, 0.1], ..Medium::new([0.0; 3], [0.0; 3], Phase::Isotropic) };
@@ -127,6 +128,7 @@ fn furnaces(albedo: f64) -> Vec<Truth> {
 }
 
 #[test]
+#[ignore = "slow"]
 fn grids_without_absorption_show_the_sky() {
     assert_all_hold(&furnaces(1.0));
 }

@@ -14,6 +14,7 @@ fn from() -> [f64; 3] {
 }
 
 #[test]
+#[ignore = "slow"]
 fn a_half_space_reflects_by_the_h_function() {
     let medium = Medium::new([1.0, 2.0, 4.0], [0.5, 0.8, 0.95], Phase::Isotropic);
     let lighter = medium.scattering_less(0.98);

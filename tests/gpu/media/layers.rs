@@ -38,6 +38,7 @@ fn solve(
 }
 
 #[test]
+#[ignore = "slow"]
 fn layers_under_the_sky_reflect_and_transmit_by_adding_and_doubling() {
     let hg = Phase::HenyeyGreenstein;
     let cases = [
@@ -64,6 +65,7 @@ fn layers_under_the_sky_reflect_and_transmit_by_adding_and_doubling() {
 
 /// Light from one direction is seen in others, at an azimuth that matters.
 #[test]
+#[ignore = "slow"]
 fn layers_in_the_sun_shine_by_adding_and_doubling() {
     let cosine = 0.5;
     let sine = (1.0f64 - cosine * cosine).sqrt();

@@ -146,6 +146,7 @@ fn a_time_that_is_up_leaves_a_whole_picture() {
 /// A picture that time ended equals the picture of as many samples: whole steps, of the same samples, weighed
 /// rightly.
 #[test]
+#[ignore = "slow"]
 fn a_picture_that_time_ended_is_the_one_of_its_samples() {
     let scene = cornell([64, 48]);
     for mut renderer in renderers(&scene) {

@@ -71,7 +71,7 @@ fn keeps_its_promise(scene: &Scene, sampled: &Scene, wanted: &Goal) {
 
 #[test]
 #[ignore = "long: the promise of an error where samples do not follow the noise"]
-fn the_error_is_below_the_target_in_95_of_100_renders() {
+fn long_the_error_is_below_the_target_in_95_of_100_renders() {
     // The promise is the same, and harder to keep, for samples that follow the noise.
     let mut scene = cornell([20, 20]);
     scene.render.max_depth = 4;
@@ -81,7 +81,7 @@ fn the_error_is_below_the_target_in_95_of_100_renders() {
 /// Points of a sequence are not independent of each other, streams of them are.
 #[test]
 #[ignore = "long: the promise of an error with points of a sequence"]
-fn so_it_is_with_points_of_a_sequence() {
+fn long_so_it_is_with_points_of_a_sequence() {
     let mut scene = cornell([20, 20]);
     scene.render.max_depth = 4;
     scene.render.sampler = SamplerKind::Sobol;
@@ -89,6 +89,7 @@ fn so_it_is_with_points_of_a_sequence() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn so_it_is_where_light_is_rare() {
     let scene = rare_light();
     keeps_its_promise(&scene, &sampling_light(&scene), &promise(0.03));
@@ -96,6 +97,7 @@ fn so_it_is_where_light_is_rare() {
 
 /// Streams are independent of each other where they share what decides their pixels' numbers of samples, because that is nothing of their own.
 #[test]
+#[ignore = "slow"]
 fn so_it_is_where_samples_follow_the_noise() {
     let mut scene = cornell([20, 20]);
     scene.render.max_depth = 4;

@@ -34,6 +34,7 @@ fn naive(renderer: &mut dyn Renderer, scene: &Scene, seed: u32) -> Vec<[f32; 3]>
 }
 
 #[test]
+#[ignore = "slow"]
 fn samples_that_follow_the_noise_leave_the_mean_where_it_is() {
     let scene = rare_light();
     let sampled = sampling_light(&scene);
@@ -50,6 +51,7 @@ fn samples_that_follow_the_noise_leave_the_mean_where_it_is() {
 
 /// The reference is tested with fewer pictures, and with the streams of a target that is never reached.
 #[test]
+#[ignore = "slow"]
 fn the_reference_and_streams_are_unbiased_too() {
     let scene = rare_light();
     let sampled = sampling_light(&scene);

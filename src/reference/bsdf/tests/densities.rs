@@ -68,7 +68,7 @@ fn samples_follow_their_densities() {
 /// With more samples, at one angle of each.
 #[test]
 #[ignore = "long: a million directions of every lobe"]
-fn many_samples_follow_their_densities() {
+fn long_many_samples_follow_their_densities() {
     let cases = non_delta_lobes();
     let level = sidak(0.01, cases.len());
     cases.into_par_iter().enumerate().for_each(|(index, (name, lobe, _))| {
