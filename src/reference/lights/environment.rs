@@ -48,7 +48,7 @@ impl Map {
         self.turn.map_or(wi, |turn| turn.transpose() * wi)
     }
 
-    /// Of a direction in the map's space: u = atan2(x, −z)/2π after turning back the rotation, v = acos(y)/π.
+    /// (u, v) of a direction in the map's space: u = atan2(x, −z)/2π after turning back the rotation, v = acos(y)/π.
     fn coordinates(&self, wi: DVec3) -> (f64, f64) {
         let u = (wi.x.atan2(-wi.z) / TAU + self.rotation).rem_euclid(1.0);
         (u, wi.x.hypot(wi.z).atan2(wi.y) / PI)

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use toml::Table;
 
-use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
+use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, transform, vector};
 use self::xml::{Element, Xml, matrix};
 use super::flat_camera::with_flat_camera;
 use super::losses::Losses;
@@ -314,7 +314,7 @@ impl Writer<'_> {
         }
         let degrees = number(light, "rotate").unwrap_or(0.0);
         let mirror = if flag(light, "mirror") == Some(true) { "<scale x=\"-1\"/>" } else { "" };
-        let turn = light.get("transform").map_or(String::new(), |written| matrix(&shape::transform(written)));
+        let turn = light.get("transform").map_or(String::new(), |written| matrix(&transform(written)));
         let file = self.file(file);
         Ok(Element::new("emitter", "envmap")
             .string("filename", &file)
