@@ -1,6 +1,6 @@
 //! Light from outside the scene, as the device reads it.
 
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 
 use super::error::PackError;
 use super::texture::PackedTextures;
@@ -68,6 +68,11 @@ impl PackedEnvironment {
                 Self { mean_luminance, words, switch: Some(switch), ..Self::default() }
             }
         })
+    }
+
+    /// True of a map that is turned about another axis than +Y.
+    pub fn is_turned(&self) -> bool {
+        self.map.is_some() && self.words[0].truncate() != DVec3::ZERO
     }
 
     pub fn is_black(&self) -> bool {

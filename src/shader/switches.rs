@@ -208,6 +208,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("ENVIRONMENT"),
     switch("ENVIRONMENT_LIGHT").requires(&["ENVIRONMENT_SAMPLED"]),
     switch("ENVIRONMENT_SAMPLED").requires(&["ENVIRONMENT", "LIGHTS"]).one_of(&["ENVIRONMENT_LIGHT", "PORTALS"]),
+    // The map is turned about another axis than +Y.
+    switch("ENVIRONMENT_TURNED").requires(&["ENVIRONMENT_MAP"]),
     // A path either samples a light or goes on.
     switch("ESTIMATOR_CHOOSE").requires(&["ESTIMATOR_MIS"]),
     switch("ESTIMATOR_MIS").excludes(&["ESTIMATOR_NEE"]),

@@ -6,12 +6,13 @@ pub const ENOUGH: [&str; 5] = ["examples", "paints", "terrace", "bazaar", "arbou
 
 /// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
 /// `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 35] = [
+pub const ELSEWHERE: [&str; 36] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
     "BUMP_MAPS",
     "COAT_NORMALS",
+    "ENVIRONMENT_TURNED",
     "ESTIMATOR_NEE",
     "FILTER",
     "FILTER_BOX",

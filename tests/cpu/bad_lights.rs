@@ -77,6 +77,19 @@ fn numbers_and_directions_out_of_range_name_the_key() {
         ),
         ("[[light]]\ntype = \"directional\"\ndirection = [0, -1, 0]\nirradiance = -1".into(), "light[0].irradiance"),
         ("[[light]]\ntype = \"sky\"\nzenith = 1\nhorizon = -1\nground = 0".into(), "light[0].horizon"),
+        (
+            "[[light]]\ntype = \"environment\"\nradiance = 1\ntransform = [{ rotate = [1, 0, 0], degrees = 9 }, { scale = 2 }]"
+                .into(),
+            "the `transform` of an environment only turns it",
+        ),
+        (
+            "[[light]]\ntype = \"environment\"\nradiance = 1\ntransform = [{ scale = [-1, 1, 1] }]".into(),
+            "the `transform` of an environment only turns it",
+        ),
+        (
+            "[[light]]\ntype = \"environment\"\nradiance = 1\ntransform = [{ translate = [0, 1, 0] }]".into(),
+            "the `transform` of an environment only turns it",
+        ),
         ("[[light]]\ntype = \"sky\"\nzenith = 1\nhorizon = 1".into(), "ground"),
         ("[[light]]\ntype = \"environment\"\nradiance = 1\nscale = -2".into(), "light[0].scale"),
         ("[[light]]\ntype = \"environment\"\nradiance = 1\nrotate = inf".into(), "light[0].rotate"),

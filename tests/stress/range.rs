@@ -213,8 +213,13 @@ fn sun() -> Scene {
     texels[7 * width + 12] = Vec3::splat(1e5);
     let image = ImageData { width: width as u32, height: height as u32, texels: texels.into(), has_alpha: false };
     let radiance = EnvironmentRadiance::Map(Arc::new(image));
-    scene.lights =
-        vec![Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default(), mirrored: false })];
+    scene.lights = vec![Light::Environment(Environment {
+        radiance,
+        rotation_degrees: 0.0,
+        turn: None,
+        rows: Default::default(),
+        mirrored: false,
+    })];
     scene
 }
 

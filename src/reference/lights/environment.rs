@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::outside::{Environment, EnvironmentSample, Outside};
 use crate::sampling::MapDistribution;
@@ -16,7 +16,13 @@ pub fn new(light: &scene::Environment) -> Outside {
         EnvironmentRadiance::Map(image) => match MapDistribution::new(image, light.rows) {
             Some(distribution) => {
                 let rotation = light.rotation_degrees / 360.0;
-                Outside::Varying(Arc::new(Map { image: image.clone(), distribution, rotation, rows: light.rows }))
+                Outside::Varying(Arc::new(Map {
+                    image: image.clone(),
+                    distribution,
+                    turn: light.turn(),
+                    rotation,
+                    rows: light.rows,
+                }))
             }
             // A black picture.
             None => Outside::Constant(Spectrum::BLACK),
@@ -29,13 +35,20 @@ pub fn new(light: &scene::Environment) -> Outside {
 struct Map {
     image: Arc<ImageData>,
     distribution: MapDistribution,
-    /// Whole turns.
+    /// From the map's space to the world, for a map that is turned about another axis than +Y.
+    turn: Option<DMat3>,
+    /// About +Y, in whole turns.
     rotation: f64,
     rows: MapRows,
 }
 
 impl Map {
-    /// u = atan2(x, −z)/2π after turning back the rotation, v = acos(y)/π.
+    /// A direction in the map's space.
+    fn turned_back(&self, wi: DVec3) -> DVec3 {
+        self.turn.map_or(wi, |turn| turn.transpose() * wi)
+    }
+
+    /// (u, v) of a direction in the map's space: u = atan2(x, −z)/2π after turning back the rotation, v = acos(y)/π.
     fn coordinates(&self, wi: DVec3) -> (f64, f64) {
         let u = (wi.x.atan2(-wi.z) / TAU + self.rotation).rem_euclid(1.0);
         (u, wi.x.hypot(wi.z).atan2(wi.y) / PI)
@@ -58,7 +71,7 @@ impl Map {
 
 impl Environment for Map {
     fn radiance(&self, wi: DVec3) -> Spectrum {
-        let (u, v) = self.coordinates(wi);
+        let (u, v) = self.coordinates(self.turned_back(wi));
         self.lookup(u, v)
     }
 
@@ -66,16 +79,18 @@ impl Environment for Map {
         let point = self.distribution.warp.sample(bits_u, bits_v);
         let (sine, cosine) = (PI * point.v).sin_cos();
         let (x, minus_z) = (TAU * (point.u - self.rotation)).sin_cos();
+        let in_map = DVec3::new(sine * x, cosine, -sine * minus_z);
         Some(EnvironmentSample {
-            wi: DVec3::new(sine * x, cosine, -sine * minus_z),
+            wi: self.turn.map_or(in_map, |turn| turn * in_map),
             radiance: self.lookup(point.u, point.v),
             pdf: point.density * per_steradian(sine),
         })
     }
 
     fn pdf(&self, wi: DVec3) -> f64 {
-        let (u, v) = self.coordinates(wi);
-        self.distribution.warp.density(u, v) * per_steradian(wi.x.hypot(wi.z))
+        let in_map = self.turned_back(wi);
+        let (u, v) = self.coordinates(in_map);
+        self.distribution.warp.density(u, v) * per_steradian(in_map.x.hypot(in_map.z))
     }
 
     fn mean_luminance(&self) -> f64 {

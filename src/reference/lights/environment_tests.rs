@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 use super::{Outside, outside_light};
 use crate::compare::sidak;
@@ -23,8 +23,19 @@ fn map(width: u32, height: u32, rotation: f64, texel: impl Fn(u32, u32) -> Vec3)
 
 fn map_of([width, height]: [u32; 2], rotation: f64, rows: MapRows, texel: impl Fn(u32, u32) -> Vec3) -> Outside {
     let texels: Vec<_> = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
-    let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels: texels.into(), has_alpha: false }));
-    of_light(Light::Environment(Environment { radiance, rotation_degrees: rotation, rows, mirrored: false }))
+    of_image(Arc::new(ImageData { width, height, texels: texels.into(), has_alpha: false }), rotation, rows, None)
+}
+
+fn of_image(image: Arc<ImageData>, rotation_degrees: f64, rows: MapRows, turn: Option<DMat3>) -> Outside {
+    let radiance = EnvironmentRadiance::Map(image);
+    of_light(Light::Environment(Environment { radiance, rotation_degrees, turn, rows, mirrored: false }))
+}
+
+/// A map that is turned about +Y by an angle, and then by a rotation.
+fn turned_map(rotation: f64, turn: Option<DMat3>) -> Outside {
+    let texels: Vec<_> = (0..128_u32).map(|i| Vec3::new((i * 37 % 11) as f32, (i * 17 % 5) as f32 + 0.1, 1.0)).collect();
+    let image = ImageData { width: 16, height: 8, texels: texels.into(), has_alpha: false };
+    of_image(Arc::new(image), rotation, MapRows::Inside, turn)
 }
 
 fn sky(zenith: f64, horizon: f64, ground: f64) -> Outside {
@@ -39,8 +50,13 @@ fn dotted(width: u32, height: u32, x: u32, y: u32) -> Outside {
 fn environments() -> Vec<(&'static str, Outside)> {
     let noise = |x: u32, y: u32| Vec3::new((x * 37 % 11) as f32, (y * 17 % 5) as f32 + 0.1, ((x + y) * 7 % 13) as f32);
     let radiance = EnvironmentRadiance::Constant(Spectrum::WHITE);
-    let constant =
-        of_light(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside, mirrored: false }));
+    let constant = of_light(Light::Environment(Environment {
+        radiance,
+        rotation_degrees: 0.0,
+        turn: None,
+        rows: MapRows::Inside,
+        mirrored: false,
+    }));
     vec![
         ("1 x 1", map(1, 1, 0.0, |_, _| Vec3::ONE)),
         ("2 x 1", map(2, 1, 0.0, |x, _| Vec3::splat(1.0 + 4.0 * x as f32))),
@@ -48,6 +64,7 @@ fn environments() -> Vec<(&'static str, Outside)> {
         ("7 x 5, turned back", map(7, 5, -20.0, noise)),
         ("7 x 5, to the poles", map_of([7, 5], 10.0, MapRows::ToPoles, noise)),
         ("a row, to the poles", map_of([3, 1], 0.0, MapRows::ToPoles, noise)),
+        ("turned about any axis", turned_map(25.0, Some(DMat3::from_axis_angle(DVec3::new(0.6, -0.64, 0.48), 1.1)))),
         ("a bright texel", dotted(16, 8, 3, 2)),
         ("a bright texel at a pole", dotted(16, 8, 0, 0)),
         ("a texel 10¹² times the others", map(16, 8, 0.0, |x, y| Vec3::splat(if (x, y) == (5, 3) { 1e12 } else { 1.0 }))),
@@ -149,6 +166,23 @@ fn maps_lie_where_the_contract_says() {
     let turned = map(8, 4, 90.0, |x, y| Vec3::new(x as f32, y as f32, 0.0));
     assert!(turned.radiance(-DVec3::Z).distance(columns.radiance(DVec3::X)) < 1e-9);
     assert!(turned.radiance(DVec3::Z).distance(columns.radiance(DVec3::X)) > 1.0);
+}
+
+/// A map that a rotation turns shows in a direction what the map at rest shows in the direction turned back; about +Y a transform is the
+/// key for that axis, and it comes after that.
+#[test]
+fn a_map_turns_about_any_axis() {
+    let turn = DMat3::from_axis_angle(DVec3::new(2.0, -1.0, 0.5).normalize(), 2.1);
+    let (rest, turned) = (turned_map(35.0, None), turned_map(35.0, Some(turn)));
+    let (by_key, by_transform) = (turned_map(-50.0, None), turned_map(0.0, Some(DMat3::from_rotation_y(-50.0_f64.to_radians()))));
+    let mut other = 0.0_f64;
+    for i in 0..500 {
+        let wi = warp::uniform_sphere(f64::from(i) / 500.0, f64::from(i * 211 % 500) / 500.0);
+        assert!(turned.radiance(turn * wi).distance(rest.radiance(wi)) < 1e-9, "{wi}");
+        assert!(by_key.radiance(wi).distance(by_transform.radiance(wi)) < 1e-9, "{wi}");
+        other = other.max(turned.radiance(turn.transpose() * wi).distance(rest.radiance(wi)));
+    }
+    assert!(other > 1.0, "the control turns the other way: {other}");
 }
 
 #[test]

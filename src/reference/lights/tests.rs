@@ -346,7 +346,13 @@ fn lights_are_chosen_by_power_and_evenly() {
     let radiance = EnvironmentRadiance::Constant(Spectrum::WHITE);
     scene.lights.insert(
         0,
-        Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default(), mirrored: false }),
+        Light::Environment(Environment {
+            radiance,
+            rotation_degrees: 0.0,
+            turn: None,
+            rows: Default::default(),
+            mirrored: false,
+        }),
     );
     assert_eq!(Lights::new(&scene, &world).table.pmf.len(), 3);
     scene.render.estimator = Estimator::Nee;

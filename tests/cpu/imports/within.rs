@@ -1,6 +1,9 @@
 //! `[[import]]`: scenes of other programs within one of ours.
 
-use gpt::scene::{MaterialKind, Projection, Scene};
+use std::f64::consts::FRAC_PI_2;
+
+use glam::DMat3;
+use gpt::scene::{Light, MaterialKind, Projection, Scene};
 use gpt::spectrum::Spectrum;
 
 use super::gltf::File;
@@ -223,4 +226,37 @@ fn a_name_like_sky_is_no_environment() {
     let own = text.replace("type = \"point\"\nposition = [0, 0, 9]\nintensity = 1", "type = \"environment\"\nradiance = 1");
     let scene = Folder::new(&[("a.xml", xml.as_bytes()), ("scene.toml", own.as_bytes())]).valid("scene.toml");
     assert_eq!(scene.lights.len(), 1);
+}
+
+/// A map of an import is turned with all of it, about any axis.
+#[test]
+fn maps_are_turned_along() {
+    let map = |file: &str, transform: &str| {
+        let turn = r#"<transform name="to_world"><rotate x="1" angle="90"/></transform>"#;
+        let turn = if file == "lies" { turn } else { "" };
+        let xml = format!(
+            r#"<scene version="3.0.0"><emitter type="envmap"><string name="filename" value="m.png"/>{turn}</emitter>
+            <shape type="sphere"/></scene>"#
+        );
+        let text = format!("{CAMERA}[[import]]\nfile = \"a.xml\"\n{transform}");
+        let folder = Folder::new(&[("a.xml", xml.as_bytes()), ("scene.toml", text.as_bytes())]);
+        image::RgbImage::new(8, 4).save(folder.path("m.png")).expect("a picture");
+        let scene = folder.valid("scene.toml");
+        let found = scene.lights.iter().find_map(|light| match light {
+            Light::Environment(map) => Some((map.turn.unwrap_or_default(), map.rotation_degrees)),
+            _ => None,
+        });
+        found.expect("an environment")
+    };
+    let lies = DMat3::from_rotation_x(FRAC_PI_2);
+    let (rest, degrees) = map("lies", "");
+    assert!(rest.abs_diff_eq(lies, 1e-12) && degrees == 0.0, "{rest}");
+    let transform = "transform = [{ scale = 2 }, { rotate = [0, 0, 1], degrees = 90 }]\n";
+    let (turned, _) = map("lies", transform);
+    assert!(turned.abs_diff_eq(DMat3::from_rotation_z(FRAC_PI_2) * lies, 1e-12), "{turned}");
+    assert!(!turned.abs_diff_eq(lies * DMat3::from_rotation_z(FRAC_PI_2), 0.1), "the control: the other order");
+    assert!(map("stands", transform).0.abs_diff_eq(DMat3::from_rotation_z(FRAC_PI_2), 1e-12));
+    // About +Y, the angle alone says so.
+    let (upright, degrees) = map("stands", "transform = [{ rotate = [0, 1, 0], degrees = 30 }]\n");
+    assert!(upright == DMat3::IDENTITY && (degrees - 30.0).abs() < 1e-9, "{upright} {degrees}");
 }

@@ -142,6 +142,14 @@ scale = 1.5
 rotate = 40
 "#;
 
+/// A map that lies on its side and is turned further.
+const TURNED_MAP: &str = r#"[[light]]
+type = "environment"
+file = "map.exr"
+rotate = 40
+transform = [{ rotate = [1, 0, 0], degrees = 90 }, { rotate = [1, 2, -0.5], degrees = 35 }]
+"#;
+
 /// One texel 10¹² times as bright as the others, sides that are no powers of two.
 const EXTREME_MAP: &str = r#"
 [[light]]
@@ -248,7 +256,10 @@ fn every_light_that_is_no_surface_agrees() {
     let everywhere = in_full("each light that is no surface alone");
     let skies = examples.into_iter().filter(|(_, light)| everywhere || light.contains("\"sky\""));
     let thrown = everywhere.then(|| ("thrown pictures", [SLIDE, THROWN].concat()));
-    let lights = [all, ("extreme map", EXTREME_MAP.to_owned())].into_iter().chain(skies).chain(thrown);
+    let lights = [all, ("extreme map", EXTREME_MAP.to_owned()), ("turned map", TURNED_MAP.to_owned())]
+        .into_iter()
+        .chain(skies)
+        .chain(thrown);
     for (index, (name, lights)) in lights.enumerate() {
         let mut scene = load(&[&lights]);
         // The other scenes are compared by one way to run.
@@ -425,10 +436,17 @@ fn other_lights_are_noticed() {
             environment.rotation_degrees += 1.0;
         }
     }
+    let tilted = load(&[TURNED_MAP]);
+    let mut upright = tilted.clone();
+    for light in &mut upright.lights {
+        if let Light::Environment(environment) = light {
+            environment.turn = None;
+        }
+    }
     let spheres = load(&[SPHERES]);
     let mut by_area = spheres.clone();
     by_area.render.light_sampling = LightSampling::Area;
-    let others = [(&map, &turned), (&spheres, &by_area), (&load(&[PORTALS, CONSTANT]), &load(&[CONSTANT]))];
+    let others = [(&map, &turned), (&tilted, &upright), (&spheres, &by_area), (&load(&[PORTALS, CONSTANT]), &load(&[CONSTANT]))];
     for (index, (ours, theirs)) in of_thrown.iter().map(|changed| (&thrown, changed)).chain(others).enumerate() {
         let Some(verdict) = compare_unequal(ours, theirs) else { return };
         assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");

@@ -124,6 +124,7 @@ fn map(scene: &mut Scene, width: u32, height: u32, texel: impl Fn(u32, u32) -> f
     scene.lights.push(Light::Environment(Environment {
         radiance,
         rotation_degrees: 30.0,
+        turn: None,
         rows: Default::default(),
         mirrored: false,
     }));

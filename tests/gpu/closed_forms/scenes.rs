@@ -92,6 +92,7 @@ pub fn environment(scene: &mut Scene, radiance: f64) {
     scene.lights.push(Light::Environment(Environment {
         radiance,
         rotation_degrees: 0.0,
+        turn: None,
         rows: Default::default(),
         mirrored: false,
     }));

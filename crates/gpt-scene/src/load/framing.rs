@@ -75,6 +75,7 @@ fn add_lights(scene: &mut Scene, rectangle: Rectangle) {
     scene.lights.push(Light::Environment(Environment {
         radiance,
         rotation_degrees: 0.0,
+        turn: None,
         rows: MapRows::Inside,
         mirrored: false,
     }));
@@ -146,7 +147,7 @@ pub fn light_by(scene: &mut Scene, map: &Path, Access { files, strict }: Access)
     };
     scene.lights.retain(|light| !light.is_environment());
     let radiance = EnvironmentRadiance::Map(image);
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees, rows, mirrored: false }));
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees, turn: None, rows, mirrored: false }));
     Ok(())
 }
 

@@ -6,7 +6,7 @@ mod projected;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::{DVec3, DVec4};
+use glam::{DMat3, DQuat, DVec3, DVec4};
 
 use super::check::{Check, image, is_direction};
 use super::image::ImageData;
@@ -73,6 +73,8 @@ pub struct Environment {
     pub radiance: EnvironmentRadiance,
     /// Rotation about +Y, counter-clockwise seen from above.
     pub rotation_degrees: f64,
+    /// A rotation about any axis, after the one about +Y; [`Self::turn`] is free of its rounding.
+    pub turn: Option<DMat3>,
     pub rows: MapRows,
     /// The columns of the map run the other way than its file has them.
     pub mirrored: bool,
@@ -105,6 +107,24 @@ pub enum EnvironmentRadiance {
     Map(Arc<ImageData>),
 }
 
+/// Largest entry of M·Mᵀ − 1 up to which a matrix M counts as a rotation.
+const ROTATION_TOLERANCE: f64 = 1e-6;
+
+/// True of a matrix that turns and does nothing else, within the rounding of its numbers.
+pub fn is_rotation(matrix: &DMat3) -> bool {
+    let apart = *matrix * matrix.transpose() - DMat3::IDENTITY;
+    let largest = apart.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
+    matrix.is_finite() && largest <= ROTATION_TOLERANCE && matrix.determinant() > 0.0
+}
+
+impl Environment {
+    /// The rotation from the map's space, which is turned about +Y already, to the world; None where it is the identity.
+    pub fn turn(&self) -> Option<DMat3> {
+        let turn = self.turn.filter(|turn| *turn != DMat3::IDENTITY)?;
+        Some(DMat3::from_quat(DQuat::from_mat3(&turn).normalize()))
+    }
+}
+
 impl SceneLight for Environment {
     fn set(&mut self, at: &LightAt) {
         if let (EnvironmentRadiance::Constant(radiance), Some(strength)) = (&mut self.radiance, at.strength) {
@@ -115,6 +135,9 @@ impl SceneLight for Environment {
 
     fn check(&self) -> Check {
         placed(self.rotation_degrees.is_finite())?;
+        if self.turn.as_ref().is_some_and(|turn| !is_rotation(turn)) {
+            return Err("its map is turned by a matrix that is no rotation".to_owned());
+        }
         match &self.radiance {
             EnvironmentRadiance::Constant(radiance) => amounts(&[*radiance]),
             EnvironmentRadiance::Map(map) => image(map),
@@ -136,14 +159,15 @@ impl SceneLight for Environment {
     }
 }
 
-/// Words of a map: (-; its rotation in turns).
+/// Words of a map: (the three axes of a map that is turned about any axis, or nothing; first, its rotation about +Y in turns).
 impl OutsideLight for Environment {
     fn parameters(&self) -> OutsideParameters<'_> {
         match &self.radiance {
             EnvironmentRadiance::Constant(radiance) => OutsideParameters::Constant(*radiance),
             EnvironmentRadiance::Map(image) => {
                 let turns = (self.rotation_degrees / 360.0).rem_euclid(1.0);
-                let words = [DVec3::ZERO.extend(turns), DVec4::ZERO, DVec4::ZERO];
+                let axes = self.turn().unwrap_or(DMat3::ZERO);
+                let words = [axes.x_axis.extend(turns), axes.y_axis.extend(0.0), axes.z_axis.extend(0.0)];
                 OutsideParameters::Varying { mean_luminance: 0.0, map: Some((image, self.rows)), words }
             }
         }
@@ -317,7 +341,7 @@ impl Light {
                     (EnvironmentRadiance::Map(a), EnvironmentRadiance::Map(b)) => Arc::ptr_eq(a, b),
                     _ => false,
                 };
-                same_radiance && a.rotation_degrees == b.rotation_degrees && a.rows == b.rows
+                same_radiance && a.rotation_degrees == b.rotation_degrees && a.turn == b.turn && a.rows == b.rows
             }
             (Self::Sky(a), Self::Sky(b)) => a == b,
             _ => self.delta().is_some() && self.delta() == other.delta() && self.texture() == other.texture(),

@@ -5,7 +5,26 @@
 #import shading/light/environment_sample.wgsl
 #import shading/warp.wgsl
 
-// (u, v) of a direction on the map: u = atan2(x, -z) / 2π after turning back the rotation, v = acos(y) / π from the top.
+// A direction in the map's space. The view has the axes of that space in the world.
+fn to_map(wi: vec3<f32>) -> vec3<f32> {
+#if ENVIRONMENT_TURNED
+    return vec3<f32>(dot(view.environment[0].xyz, wi), dot(view.environment[1].xyz, wi), dot(view.environment[2].xyz, wi));
+#else
+    return wi;
+#endif
+}
+
+// A direction in the world.
+fn from_map(direction: vec3<f32>) -> vec3<f32> {
+#if ENVIRONMENT_TURNED
+    let axes = mat3x3<f32>(view.environment[0].xyz, view.environment[1].xyz, view.environment[2].xyz);
+    return axes * direction;
+#else
+    return direction;
+#endif
+}
+
+// (u, v) of a direction in the map's space: u = atan2(x, -z) / 2π after turning back the rotation, v = acos(y) / π from the top.
 fn map_coordinates(wi: vec3<f32>) -> vec2<f32> {
     return vec2<f32>(fract(atan2_turns(wi.x, -wi.z) + view.environment[0].w), 2.0 * atan2_turns(length(wi.xz), wi.y));
 }
@@ -39,7 +58,7 @@ fn map_radiance(uv: vec2<f32>) -> Spectrum {
 }
 
 fn environment_radiance(wi: vec3<f32>) -> Spectrum {
-    return map_radiance(map_coordinates(wi));
+    return map_radiance(map_coordinates(to_map(wi)));
 }
 
 // From a density over the unit square of (u, v) to one per steradian.
@@ -49,10 +68,11 @@ fn map_pdf_per_steradian(sine: f32) -> f32 {
 
 // Density of sample_environment, per steradian.
 fn environment_pdf(wi: vec3<f32>) -> f32 {
-    let uv = map_coordinates(wi);
+    let direction = to_map(wi);
+    let uv = map_coordinates(direction);
     let column = min(u32(uv.x * f32(ENVIRONMENT_GRID_WIDTH)), ENVIRONMENT_GRID_WIDTH - 1u);
     let row = min(u32(uv.y * f32(ENVIRONMENT_GRID_HEIGHT)), ENVIRONMENT_GRID_HEIGHT - 1u);
-    return warp_density(map_warp(), column, row) * map_pdf_per_steradian(length(wi.xz));
+    return warp_density(map_warp(), column, row) * map_pdf_per_steradian(length(direction.xz));
 }
 
 fn map_warp() -> Warp {
@@ -70,5 +90,6 @@ fn sample_environment(bits_u: u32, bits_v: u32) -> EnvironmentSample {
     let polar = sin_cos_turns(0.5 * uv.y);
     let azimuth = sin_cos_turns(fract(uv.x - view.environment[0].w));
     let pdf = warp_density(map_warp(), cell.column, cell.row) * map_pdf_per_steradian(polar.x);
-    return EnvironmentSample(vec3<f32>(polar.x * azimuth.x, polar.y, -polar.x * azimuth.y), map_radiance(uv), pdf);
+    let direction = vec3<f32>(polar.x * azimuth.x, polar.y, -polar.x * azimuth.y);
+    return EnvironmentSample(from_map(direction), map_radiance(uv), pdf);
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 
 use gpt_scene::light_examples::delta_light_examples;
 
@@ -230,6 +230,7 @@ fn everything() -> Scene {
     scene.lights.push(Light::Environment(Environment {
         radiance,
         rotation_degrees: 30.0,
+        turn: Some(DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7)),
         rows: Default::default(),
         mirrored: false,
     }));

@@ -193,9 +193,9 @@ fn groups_of_meshes_become_instances() {
     }
 }
 
-/// The direction from which a map's texel comes, before and after the scene is turned so that the map stands upright.
+/// A map that stands upright is turned by its angle, another one by its transform; the scene stays as the file has it.
 #[test]
-fn environment_maps_that_lie_turn_the_scene() {
+fn environment_maps_are_turned_about_any_axis() {
     let folder = |turn: &str| {
         let map = format!(
             r#"<emitter type="envmap"><string name="filename" value="a.png"/><transform name="to_world">{turn}</transform></emitter>"#
@@ -208,9 +208,15 @@ fn environment_maps_that_lie_turn_the_scene() {
     let Light::Environment(map) = &upright.lights[1] else { panic!("no map") };
     assert!((map.rotation_degrees - 30.0).abs() < 1e-9, "{}", map.rotation_degrees);
     assert_eq!(upright.camera.up, glam::DVec3::Y);
-    // Z up: what was up along Y there is up along Z in the file, and the camera's Y becomes -Z of the turned world.
-    let lying = folder(r#"<rotate x="1" angle="90"/>"#);
-    assert!((lying.camera.up - glam::DVec3::NEG_Z).length() < 1e-12, "{}", lying.camera.up);
+    assert_eq!(map.turn, None);
+    // Z up: the map's Y is the world's Z.
+    let lying = folder(r#"<rotate y="1" angle="30"/><rotate x="1" angle="90"/><scale value="3"/>"#);
+    assert_eq!(lying.camera.up, glam::DVec3::Y);
+    let Light::Environment(map) = &lying.lights[1] else { panic!("no map") };
+    let turn = map.turn.expect("it lies");
+    let stated = glam::DMat3::from_rotation_x(90.0_f64.to_radians()) * glam::DMat3::from_rotation_y(30.0_f64.to_radians());
+    assert!(turn.abs_diff_eq(stated, 1e-12) && map.rotation_degrees == 0.0, "{map:?}");
+    assert!((turn * glam::DVec3::Y - glam::DVec3::Z).length() < 1e-12, "{turn}");
 }
 
 #[test]

@@ -404,7 +404,7 @@ fn maps_are_mirrored() {
         assert!(near(reflected, exchanged(plain)), "{plain:?} {reflected:?}");
         assert!(!near(reflected, plain), "the control: {plain:?}");
     }
-    // One that is mirrored upside down turns the scene as well.
+    // One that is mirrored upside down is turned about another axis as well.
     assert!(near(map(r#"<scale z="-1"/>"#), exchanged(map(r#"<rotate y="1" angle="180"/>"#))));
 }
 

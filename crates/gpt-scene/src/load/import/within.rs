@@ -1,14 +1,15 @@
 //! A description as part of another scene.
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 use super::description::{Description, map_of};
 use super::maps::is_uniform;
-use crate::load::file::light::LightEntry;
+use crate::load::file::light::{LightEntry, environment};
 use crate::load::file::node::NodeEntry;
 use crate::load::file::shape::{ShapeEntry, TransformEntry};
 use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
 use crate::load::place::Place;
+use crate::scene::light::is_rotation;
 use crate::spectrum::Spectrum;
 
 impl Description {
@@ -38,7 +39,7 @@ impl Description {
             camera.up.as_mut().map_or(Ok(()), |up| turn(map, &mut up.value))?;
         }
         self.file.meter.iter_mut().try_for_each(|meter| meter.value.transform_by(map))?;
-        let upright = turn_about_y(map);
+        let rotation = rotation_of(map);
         for light in &mut self.file.light {
             match &mut light.value {
                 LightEntry::Point(keys) => move_point(map, &mut keys.position)?,
@@ -54,17 +55,21 @@ impl Description {
                     keys.up.as_mut().map_or(Ok(()), |up| turn(map, &mut up.value))?;
                 }
                 LightEntry::Environment(keys) => {
-                    if let (Some(degrees), Some(rotate)) = (upright, &mut keys.rotate) {
-                        *rotate = Number::of(rotate.0 + degrees)?;
+                    if let Some(rotation) = rotation {
+                        turn_map(&rotation, keys, place)?;
                     }
                 }
                 LightEntry::Sky(_) => {}
             }
         }
         let is_map = |light: &&Located<LightEntry>| matches!(&light.value, LightEntry::Environment(keys) if keys.file.is_some());
-        if let (None, Some(light)) = (upright, self.file.light.iter().find(is_map)) {
-            let instead = "it stands upright as before";
-            self.report.approximate("environment map of a scene that is turned over", light.place.to_string(), instead);
+        if let (None, Some(light)) = (rotation, self.file.light.iter().find(is_map)) {
+            let instead = "it stands as before";
+            self.report.approximate(
+                "environment map of a scene that is mirrored or scaled unevenly",
+                light.place.to_string(),
+                instead,
+            );
         }
         Ok(())
     }
@@ -211,11 +216,26 @@ fn turn(map: &DAffine3, direction: &mut Vector) -> Result<(), String> {
     Ok(())
 }
 
-/// Degrees about +Y, where the map leaves that upright.
-fn turn_about_y(map: &DAffine3) -> Option<f64> {
-    let (x, y) = (map.matrix3.x_axis.normalize_or_zero(), map.matrix3.y_axis.normalize_or_zero());
-    let upright = (y - DVec3::Y).length() < 1e-9 && map.matrix3.determinant() > 0.0;
-    upright.then(|| (-x.z).atan2(x.x).to_degrees())
+/// The rotation that is in a map; None of a map that mirrors or shears.
+fn rotation_of(map: &DAffine3) -> Option<DMat3> {
+    let DMat3 { x_axis, y_axis, z_axis } = map.matrix3;
+    let [x, y, z] = [x_axis, y_axis, z_axis].map(|axis| axis.normalize_or_zero());
+    Some(DMat3::from_cols(x, y, z)).filter(is_rotation)
+}
+
+/// Turns the map of an environment: about +Y by its angle there, about another axis by its transform.
+fn turn_map(rotation: &DMat3, keys: &mut environment::Keys, place: &Place) -> Result<(), String> {
+    if keys.file.is_none() || *rotation == DMat3::IDENTITY {
+        return Ok(());
+    }
+    if keys.transform.is_none() && (rotation.y_axis - DVec3::Y).length() < 1e-9 {
+        let degrees = (-rotation.x_axis.z).atan2(rotation.x_axis.x).to_degrees();
+        keys.rotate = Some(Number::of(keys.rotate.map_or(0.0, |rotate| rotate.0) + degrees)?);
+        return Ok(());
+    }
+    let turned = DAffine3::from_mat3(*rotation) * map_of(keys.transform.as_ref());
+    keys.transform = TransformEntry::of_map(&turned, place)?;
+    Ok(())
 }
 
 #[cfg(test)]

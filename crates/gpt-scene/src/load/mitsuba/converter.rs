@@ -34,8 +34,6 @@ pub struct Converter<'a> {
     pub reader: Reader<'a>,
     pub files: &'a Files,
     pub scene: Description,
-    /// Rotation of the whole scene that makes its environment upright.
-    pub world: DAffine3,
     /// By the plugin, whether it is within one that has two sides, and the mesh whose attributes it looks up.
     pub materials: HashMap<(*const Plugin, bool, Option<usize>), usize>,
     pub both_sides: bool,
@@ -109,6 +107,6 @@ impl Converter<'_> {
 
     /// The transform of a shape that a map puts into the world.
     pub fn transform(&self, map: &DAffine3, plugin: &Plugin) -> Result<Option<Located<TransformEntry>>, SceneError> {
-        plugin.possible(TransformEntry::of_map(&(self.world * *map), &plugin.at()))
+        plugin.possible(TransformEntry::of_map(map, &plugin.at()))
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::rc::Rc;
 
-use glam::{DAffine2, DMat2, DVec2, DVec3};
+use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3};
 
 use super::converter::Converter;
 use super::plugin::Plugin;
@@ -11,10 +11,12 @@ use crate::load::error::{SceneError, show};
 use crate::load::file::colour::Rgb;
 use crate::load::file::light::{LightEntry, directional, environment, point, projector, sky, spot};
 use crate::load::file::reference::{FileOr, TextureName};
+use crate::load::file::shape::TransformEntry;
 use crate::load::file::syntax::TextureEntry;
 use crate::load::file::value::{Checked, Exactly, Located, NonNegative, Number, Vector};
 use crate::load::image_file::Pictures;
-use crate::load::import::{Input, world_direction};
+use crate::load::import::Input;
+use crate::scene::light::is_rotation;
 use crate::spectrum::Spectrum;
 
 impl Converter<'_> {
@@ -31,7 +33,7 @@ impl Converter<'_> {
                 };
                 let intensity = self.constant(plugin, "intensity")?;
                 LightEntry::Point(point::Keys {
-                    position: vector(plugin, self.world.transform_point3(position))?,
+                    position: vector(plugin, position)?,
                     intensity: rgb(plugin, intensity)?,
                     keyframes: None,
                     interpolation: None,
@@ -114,8 +116,7 @@ impl Converter<'_> {
     }
 
     fn direction(&self, plugin: &Plugin, direction: DVec3) -> Result<DVec3, SceneError> {
-        world_direction(&self.world, direction)
-            .ok_or_else(|| plugin.error(format!("the direction of {} has no length", plugin.title())))
+        direction.try_normalize().ok_or_else(|| plugin.error(format!("the direction of {} has no length", plugin.title())))
     }
 
     /// A colour of light that may be a texture, which is looked up in the plane across a light's direction: `flips` say whether its u and its
@@ -134,7 +135,7 @@ impl Converter<'_> {
     fn aim(&self, plugin: &Plugin) -> Result<Aim, SceneError> {
         let map = plugin.transform("to_world")?;
         Ok(Aim {
-            position: vector(plugin, self.world.transform_point3(map.translation))?,
+            position: vector(plugin, map.translation)?,
             direction: plugin.at().at(vector(plugin, self.direction(plugin, map.matrix3.z_axis)?)?),
             up: plugin.at().at(vector(plugin, self.direction(plugin, map.matrix3.y_axis)?)?),
             mirrors: map.matrix3.determinant() < 0.0,
@@ -213,13 +214,25 @@ impl Converter<'_> {
         let written = plugin.text("filename")?.ok_or_else(|| plugin.error("an environment map needs the string `filename`"))?;
         let path = self.reader.find(written).ok_or_else(|| plugin.error(format!("there is no file {written}")))?;
         let scale = plugin.number_or("scale", 1.0)?;
-        // Upright once the world is turned.
-        let mut turn = self.world.matrix3 * plugin.transform("to_world")?.matrix3;
+        let mut turn = plugin.transform("to_world")?.matrix3;
         let mirrors = turn.determinant() < 0.0;
         if mirrors {
             turn.x_axis = -turn.x_axis;
         }
-        let degrees = turn.x_axis.z.atan2(turn.x_axis.x) * -180.0 / PI;
+        let stated = [turn.x_axis, turn.y_axis, turn.z_axis].map(|axis| axis.normalize_or_zero());
+        let stated = DMat3::from_cols(stated[0], stated[1], stated[2]);
+        let (x, y) = ((stated.x_axis - stated.y_axis * stated.x_axis.dot(stated.y_axis)).normalize_or_zero(), stated.y_axis);
+        let turn = DMat3::from_cols(x, y, x.cross(y));
+        if !is_rotation(&turn) {
+            return Err(plugin.error("the `to_world` of an environment map flattens it"));
+        }
+        if !stated.abs_diff_eq(turn, 1e-6) {
+            self.approximate(plugin, "`to_world` of an environment map that shears", "the map is turned and not sheared");
+        }
+        // Upright maps have one angle.
+        let is_upright = (y - DVec3::Y).length() < 1e-9;
+        let degrees = if is_upright { x.z.atan2(x.x) * -180.0 / PI } else { 0.0 };
+        let transform = DAffine3::from_mat3(if is_upright { DMat3::IDENTITY } else { turn });
         // Mitsuba's columns lie as ours do; its first and last row lie on the poles.
         let place = plugin.at();
         let scale = if scale == 1.0 { None } else { Some(place.at(plugin.possible(Checked::of(scale))?)) };
@@ -228,6 +241,7 @@ impl Converter<'_> {
             file: Some(place.at(FileOr::OnDisk(path))),
             scale,
             rotate: Some(plugin.possible(Number::of(degrees))?),
+            transform: plugin.possible(TransformEntry::of_map(&transform, &place))?,
             mirror: mirrors.then(|| place.at(true)),
             rows: Some(environment::Rows::ToPoles),
             keyframes: None,

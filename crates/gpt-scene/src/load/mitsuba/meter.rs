@@ -27,12 +27,12 @@ impl Converter<'_> {
             self.drop(plugin, "irradiance meter on no shape", "it is left out");
             return Ok(());
         }
-        let to_world = self.world * plugin.transform("to_world")?;
-        let stated = plugin.vector("direction")?.map(|direction| self.world.transform_vector3(direction));
+        let to_world = plugin.transform("to_world")?;
+        let stated = plugin.vector("direction")?;
         let direction = place.at(given(plugin, stated.unwrap_or(to_world.matrix3.z_axis))?);
         let name = place.at(self.meter_name(plugin));
         let entry = if plugin.name == "radiancemeter" {
-            let origin = plugin.vector("origin")?.map(|origin| self.world.transform_point3(origin));
+            let origin = plugin.vector("origin")?;
             let position = given(plugin, origin.unwrap_or(to_world.translation))?;
             MeterEntry::Radiance(RadianceKeys { name, position, direction, medium: None })
         } else {
@@ -43,7 +43,7 @@ impl Converter<'_> {
             if target.is_none() && plugin.children_of("shape").is_empty() {
                 self.approximate(plugin, "distant sensor of the whole scene", "one ray goes through the scene's origin");
             }
-            let target = self.world.transform_point3(target.unwrap_or(DVec3::ZERO));
+            let target = target.unwrap_or(DVec3::ZERO);
             MeterEntry::Distant(DistantKeys { name, direction, target: Some(given(plugin, target)?), size: None })
         };
         self.scene.file.meter.push(place.at(entry));
@@ -63,7 +63,6 @@ impl Converter<'_> {
                 self.drop(sensor, &what, "it is left out; meters of irradiance stand on rectangles");
                 continue;
             }
-            let map = self.world * map;
             let [mut edge_u, mut edge_v] = [DVec3::X, DVec3::Y].map(|edge| map.transform_vector3(2.0 * edge));
             if shape.flag("flip_normals", false)? {
                 std::mem::swap(&mut edge_u, &mut edge_v);

@@ -35,8 +35,6 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
 
-use glam::DAffine3;
-
 use self::converter::Converter;
 use self::document::Reader;
 use self::met_media::MetMedia;
@@ -64,7 +62,6 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         reader,
         files,
         scene: Description::default(),
-        world: DAffine3::IDENTITY,
         materials: HashMap::new(),
         both_sides: false,
         clip: None,
@@ -99,7 +96,6 @@ impl Converter<'_> {
             self.integrator(integrator)?;
         }
         let sensor = self.choose_sensor(root, options)?;
-        self.find_world(root)?;
         if let Some(sensor) = &sensor {
             self.sensor(sensor)?;
         }

@@ -1,9 +1,9 @@
-//! Sensors with their film and sampler, integrators, and which way the world stands.
+//! Sensors with their film and sampler, and integrators.
 
 use std::num::NonZeroU32;
 use std::rc::Rc;
 
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::DVec3;
 
 use super::converter::Converter;
 use super::plugin::Plugin;
@@ -78,24 +78,6 @@ impl Converter<'_> {
         plugin.possible(self.scene.file.render.set(name, value))
     }
 
-    /// Environment maps stand upright here: what turns one otherwise turns the whole scene the other way.
-    pub fn find_world(&mut self, root: &Rc<Plugin>) -> Result<(), SceneError> {
-        let map = root.children.iter().find(|child| child.plugin.kind == "emitter" && child.plugin.name == "envmap");
-        if let Some(map) = map {
-            let mut turn = map.plugin.transform("to_world")?.matrix3;
-            // A mirrored map is its mirror image, turned.
-            if turn.determinant() < 0.0 {
-                turn.x_axis = -turn.x_axis;
-            }
-            let columns = [turn.x_axis, turn.y_axis, turn.z_axis].map(|axis| axis.normalize_or_zero());
-            let turn = DMat3::from_cols(columns[0], columns[1], columns[2]);
-            if (turn.y_axis - DVec3::Y).length() > 1e-9 && turn.determinant() > 0.0 {
-                self.world = DAffine3::from_quat(DQuat::from_mat3(&turn).inverse());
-            }
-        }
-        Ok(())
-    }
-
     pub fn sensor(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
         plugin.visited.set(true);
         plugin.without_effect(&["near_clip", "far_clip", "srf"]);
@@ -110,7 +92,7 @@ impl Converter<'_> {
             }
             self.setting(sampler, "spp", &(count as i64).to_string())?;
         }
-        let to_world = self.world * plugin.transform("to_world")?;
+        let to_world = plugin.transform("to_world")?;
         let degenerate = || plugin.error("`to_world` of the sensor leaves no direction to look along");
         let axis = |axis: DVec3| axis.try_normalize().filter(|axis| axis.is_finite()).ok_or_else(degenerate);
         let (forward, up) = (axis(to_world.matrix3.z_axis)?, axis(to_world.matrix3.y_axis)?);
@@ -191,7 +173,7 @@ impl Converter<'_> {
             return Ok(());
         };
         let (near, far) = (plugin.number_or("near_clip", 1e-2)?, plugin.number_or("far_clip", 1e4)?);
-        let to_world = self.world * plugin.transform("to_world")?;
+        let to_world = plugin.transform("to_world")?;
         let forward = to_world.matrix3.z_axis.normalize_or_zero();
         let depths = self.scene.points().into_iter().map(|point| (point - to_world.translation).dot(forward));
         let (is_near, is_far) = depths

@@ -54,9 +54,8 @@ impl Converter<'_> {
                     && let [group] = &groups[..]
                     && self.is_stored_once(group)?
                 {
-                    let place = self.world * map * self.world.inverse();
                     let places = self.groups.get_mut(&Rc::as_ptr(group)).map(|group| &mut group.places);
-                    places.into_iter().for_each(|places| places.push(place));
+                    places.into_iter().for_each(|places| places.push(map));
                     return Ok(());
                 }
                 groups.iter().into_iter().try_for_each(|group| self.placed_shape(group, map, depth + 1))

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 use crate::spectrum::Spectrum;
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use toml::{Table, Value};
 
 /// Values that are looked up by keys.
@@ -94,4 +94,27 @@ pub fn vector(table: &impl Lookup, key: &str) -> Option<DVec3> {
 pub fn colour(table: &impl Lookup, key: &str) -> Spectrum {
     let rgb = numbers(table, key).and_then(|numbers| numbers.try_into().ok()).map(Spectrum::from_rgb);
     rgb.or(number(table, key).map(Spectrum::grey)).unwrap_or_default()
+}
+
+/// The map of a transform: steps, or one of them.
+pub fn transform(written: &Value) -> DAffine3 {
+    match written {
+        Value::Array(steps) => steps.iter().fold(DAffine3::IDENTITY, |so_far, written| step(written) * so_far),
+        single => step(single),
+    }
+}
+
+fn step(written: &Value) -> DAffine3 {
+    let Some(step) = written.as_table() else { return DAffine3::IDENTITY };
+    if let Some(scale) = vector(step, "scale").or(number(step, "scale").map(DVec3::splat)) {
+        return DAffine3::from_scale(scale);
+    }
+    if let (Some(axis), Some(degrees)) = (vector(step, "rotate"), number(step, "degrees")) {
+        return DAffine3::from_axis_angle(axis.normalize_or(DVec3::Y), degrees.to_radians());
+    }
+    if let Some(offset) = vector(step, "translate") {
+        return DAffine3::from_translation(offset);
+    }
+    let rows: Option<[f64; 16]> = numbers(step, "matrix").and_then(|rows| rows.try_into().ok());
+    rows.map_or(DAffine3::IDENTITY, |rows| DAffine3::from_mat4(glam::DMat4::from_cols_array(&rows).transpose()))
 }

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use toml::Table;
 
-use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
-use self::xml::{Element, Xml};
+use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, transform, vector};
+use self::xml::{Element, Xml, matrix};
 use super::flat_camera::with_flat_camera;
 use super::losses::Losses;
 use super::scene_file::scene_text;
@@ -314,11 +314,12 @@ impl Writer<'_> {
         }
         let degrees = number(light, "rotate").unwrap_or(0.0);
         let mirror = if flag(light, "mirror") == Some(true) { "<scale x=\"-1\"/>" } else { "" };
+        let turn = light.get("transform").map_or(String::new(), |written| matrix(&transform(written)));
         let file = self.file(file);
         Ok(Element::new("emitter", "envmap")
             .string("filename", &file)
             .float("scale", scale)
-            .transform("to_world", &format!("{mirror}<rotate y=\"1\" angle=\"{degrees}\"/>")))
+            .transform("to_world", &format!("{mirror}<rotate y=\"1\" angle=\"{degrees}\"/>{turn}")))
     }
 
     /// The name of a file as the scene of Mitsuba has it: absolute, or of one that is written beside it.

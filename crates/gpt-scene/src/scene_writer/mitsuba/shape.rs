@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use toml::{Table, Value};
 
 use super::Writer;
-use super::keys::{Keys, as_number, entries, flag, number, numbers, text, vector};
+use super::keys::{Keys, as_number, entries, flag, number, text, transform, vector};
 use super::xml::{Element, matrix};
 use crate::load::SceneError;
 use crate::load::file::writer::ply;
@@ -200,27 +200,4 @@ fn inline(shape: &Keys<'_>) -> Mesh {
 /// The map of the plane z = 0 to the one along these axes, its front along their product.
 fn frame(u: DVec3, v: DVec3, middle: DVec3) -> DAffine3 {
     DAffine3 { matrix3: DMat3::from_cols(u, v, u.cross(v).normalize_or(DVec3::Z)), translation: middle }
-}
-
-/// Steps, or one of them.
-fn transform(written: &Value) -> DAffine3 {
-    match written {
-        Value::Array(steps) => steps.iter().fold(DAffine3::IDENTITY, |so_far, written| step(written) * so_far),
-        single => step(single),
-    }
-}
-
-fn step(written: &Value) -> DAffine3 {
-    let Some(step) = written.as_table() else { return DAffine3::IDENTITY };
-    if let Some(scale) = vector(step, "scale").or(number(step, "scale").map(DVec3::splat)) {
-        return DAffine3::from_scale(scale);
-    }
-    if let (Some(axis), Some(degrees)) = (vector(step, "rotate"), number(step, "degrees")) {
-        return DAffine3::from_axis_angle(axis.normalize_or(DVec3::Y), degrees.to_radians());
-    }
-    if let Some(offset) = vector(step, "translate") {
-        return DAffine3::from_translation(offset);
-    }
-    let rows: Option<[f64; 16]> = numbers(step, "matrix").and_then(|rows| rows.try_into().ok());
-    rows.map_or(DAffine3::IDENTITY, |rows| DAffine3::from_mat4(glam::DMat4::from_cols_array(&rows).transpose()))
 }

@@ -39,6 +39,7 @@ pub fn octahedral(side: u32, radiance: impl Fn(DVec3) -> Spectrum + Sync) -> Vec
 /// The radiance from a direction by a lat-long map.
 pub fn radiance(light: &Environment, map: &ImageData, direction: DVec3) -> Spectrum {
     let turns = light.rotation_degrees / 360.0;
+    let direction = light.turn().map_or(direction, |turn| turn.transpose() * direction);
     let u = (direction.x.atan2(-direction.z) / TAU + turns).rem_euclid(1.0);
     let v = direction.x.hypot(direction.z).atan2(direction.y) / PI;
     let (scale, offset) = light.rows.scale_and_offset(map.height);
@@ -65,6 +66,7 @@ mod tests {
         let light = |rotation_degrees: f64| Environment {
             radiance: EnvironmentRadiance::Constant(Spectrum::BLACK),
             rotation_degrees,
+            turn: None,
             rows: MapRows::Inside,
             mirrored: false,
         };

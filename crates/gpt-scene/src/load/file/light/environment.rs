@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::{DMat3, DVec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,12 +13,14 @@ use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{EnvironmentKeyEntry, InterpolationName, WrittenLightTrack};
 use crate::load::file::reference::FileOr;
 use crate::load::file::resolver::Resolver;
+use crate::load::file::shape::TransformEntry;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number};
-use crate::load::file::writer::{Writer, colour, line, number};
+use crate::load::file::writer::{Writer, colour, line, number, numbers, table};
 use crate::load::image_file::EmbeddedFile;
 use crate::load::place::Place;
 use crate::picture_file::Envelope;
 use crate::scene::animation::LightTrack;
+use crate::scene::light::is_rotation;
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
 
 /// Radiance from outside the scene: either `radiance` or `file`.
@@ -34,6 +37,8 @@ pub struct Keys {
     pub scale: Option<Located<Checked<NonNegative>>>,
     /// Degrees about +Y, counter-clockwise seen from above.
     pub rotate: Option<Number>,
+    /// Turns the map about any axis, after `rotate`: steps with `rotate` and `degrees`, or a matrix that is a rotation.
+    pub transform: Option<Located<TransformEntry>>,
     /// Exchanges the map's left and right before it is turned; false when left out.
     pub mirror: Option<Located<bool>>,
     /// Position of the first and the last row of the map: half a row from the poles when left out.
@@ -61,6 +66,7 @@ impl LightKeys for Keys {
         "radiance = [0.2, 0.5, 1]",
         "file = \"map.exr\"\nscale = 1.5\nrotate = 40",
         "file = \"map.exr\"\nrows = \"to_poles\"\nmirror = true",
+        "file = \"map.exr\"\nrotate = 20\ntransform = [{ rotate = [1, 0, 0], degrees = 90 }, { rotate = [1, 2, -0.5], degrees = 35 }]",
     ];
     const STRENGTH: &'static str = "radiance";
 
@@ -68,15 +74,18 @@ impl LightKeys for Keys {
         let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
         let rotation_degrees = self.rotate.map_or(0.0, |rotate| rotate.0);
         let mirrored = self.mirror.as_ref().is_some_and(|mirror| mirror.value);
+        let turn = self.transform.as_ref().map(|written| turn(resolver, written)).transpose()?;
         let radiance = match (&self.radiance, &self.file) {
             (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
-            (None, Some(file)) => return self.map(resolver, file, (scale, rotation_degrees, mirrored)),
+            (None, Some(file)) => {
+                return Ok(Environment { turn, ..self.map(resolver, file, (scale, rotation_degrees, mirrored))? });
+            }
             (Some(radiance), Some(_)) => {
                 return Err(resolver.error(&radiance.place, "an environment has either `radiance` or `file`"));
             }
             (None, None) => return Err(resolver.error(span, "an environment needs the key `radiance` or `file`")),
         };
-        Ok(Environment { radiance, rotation_degrees, rows: self.rows.map_or(MapRows::Inside, MapRows::from), mirrored })
+        Ok(Environment { radiance, rotation_degrees, turn, rows: self.rows.map_or(MapRows::Inside, MapRows::from), mirrored })
     }
 
     fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
@@ -104,6 +113,11 @@ impl LightKeys for Keys {
         if environment.rotation_degrees != 0.0 {
             out += &line("rotate", &number(environment.rotation_degrees));
         }
+        if let Some(turn) = environment.turn {
+            let row = |row: usize| turn.row(row).extend(0.0).to_array();
+            let rows = [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]].concat();
+            out += &line("transform", &table([("matrix", numbers(&rows))]));
+        }
         if environment.rows == MapRows::ToPoles {
             out += &line("rows", "\"to_poles\"");
         }
@@ -112,6 +126,17 @@ impl LightKeys for Keys {
         }
         out
     }
+}
+
+/// The rotation that a transform is.
+fn turn(resolver: &Resolver<'_>, written: &Located<TransformEntry>) -> Result<DMat3, SceneError> {
+    let map = resolver.transform(written)?.to_affine();
+    if map.translation == DVec3::ZERO && is_rotation(&map.matrix3) {
+        return Ok(map.matrix3);
+    }
+    Err(resolver
+        .error(&written.place, "the `transform` of an environment only turns it: it has no scale, no translation and no mirror")
+        .with_help("`scale` changes the radiance, and `mirror = true` exchanges the map's left and right"))
 }
 
 impl From<Rows> for MapRows {
@@ -131,6 +156,7 @@ impl Keys {
             file: None,
             scale: None,
             rotate: None,
+            transform: None,
             mirror: None,
             rows: None,
             keyframes: None,
@@ -161,7 +187,7 @@ impl Keys {
         // A mirror turns the other way what lies behind it.
         let rotation_degrees = rotation_degrees + if mirrored { -turned } else { turned };
         if scale == 1.0 && !mirrored {
-            return Ok(Environment { radiance: EnvironmentRadiance::Map(image), rotation_degrees, rows, mirrored });
+            return Ok(Environment { radiance: EnvironmentRadiance::Map(image), rotation_degrees, turn: None, rows, mirrored });
         }
         let mut texels: Vec<_> = image.texels.colors().map(|texel| texel * scale as f32).collect();
         if mirrored {
@@ -178,6 +204,6 @@ impl Keys {
         if let Some(source) = resolver.scene.sources.image(&image).cloned() {
             resolver.scene.sources.add_image(&scaled, ImageSource { scale, ..source });
         }
-        Ok(Environment { radiance: EnvironmentRadiance::Map(scaled), rotation_degrees, rows, mirrored })
+        Ok(Environment { radiance: EnvironmentRadiance::Map(scaled), rotation_degrees, turn: None, rows, mirrored })
     }
 }
