@@ -39,6 +39,24 @@ pub fn hdr(name: &'static str, [width, height]: [u32; 2], texel: impl Fn(u32, u3
     SceneFile { name, bytes }
 }
 
+/// An OpenEXR picture of 32 bits a channel.
+///
+/// # Panics
+/// Memory is at an end.
+pub fn exr(name: &'static str, [width, height]: [u32; 2], texel: impl Fn(u32, u32) -> [f32; 3]) -> SceneFile {
+    use exr::prelude::*;
+    let channel = |name: &str, index: usize| {
+        let texels = (0..width * height).map(|place| texel(place % width, place / width)[index]);
+        AnyChannel::new(name, FlatSamples::F32(texels.collect()))
+    };
+    let channels = AnyChannels::sort([channel("R", 0), channel("G", 1), channel("B", 2)].into_iter().collect());
+    let size = (width as usize, height as usize);
+    let image = Image::from_layer(Layer::new(size, LayerAttributes::default(), Encoding::UNCOMPRESSED, channels));
+    let mut bytes = Cursor::new(Vec::new());
+    image.write().non_parallel().to_buffered(&mut bytes).expect("memory takes it");
+    SceneFile { name, bytes: bytes.into_inner() }
+}
+
 /// The linear value of an sRGB code of 8 bits (IEC 61966-2-1).
 pub fn srgb_to_linear(code: u8) -> f64 {
     srgb_value_to_linear(f64::from(code) / 255.0)

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 use super::super::formulas::normalized;
 use super::super::picture::{SceneFile, hdr};
 use super::super::test::Test;
-use super::stage::{SCREEN, diffuse, frontal, light, material, on_plane, scaled, scene};
+use super::stage::{SCREEN, diffuse, frontal, light, material, on_plane, scaled, scene, sized};
 
 const WIDTH: u32 = 16;
 const HEIGHT: u32 = 8;
@@ -168,5 +168,73 @@ pub fn tests() -> Vec<Test> {
         .with_kinks()
         .file(file())
         .mistake("a factor that is left out", |s, t| seen(FRONT.direction(s, t))),
+        panorama(),
+        fisheye(),
     ]
+}
+
+/// The scene of [`View::scene`] with another projection and a film of this size.
+fn by_lens(size: [u32; 2], projection: &str) -> String {
+    let far = super::stage::shape("sphere", "m", "center = [0, -50, 0]\nradius = 0.001");
+    sized(
+        size,
+        &format!("position = [0, 0, 0]\nlook_at = [0, 0, -1]\n{projection}\n"),
+        &format!("{}{far}{}", diffuse(0.5), map("")),
+    )
+}
+
+/// All directions in one picture.
+fn panorama() -> Test {
+    let direction = |s: f64, t: f64| {
+        let (azimuth, elevation) = (PI * (2.0 * s - 1.0), PI * (0.5 - t));
+        [azimuth.sin() * elevation.cos(), elevation.sin(), -azimuth.cos() * elevation.cos()]
+    };
+    Test::of_formula(
+        [
+            "cameras/panorama",
+            "An equirectangular panorama: its middle is straight ahead, and equal steps to the right are equal angles.",
+            "`equirectangular` of the scene file",
+        ],
+        by_lens([64, 32], "projection = \"equirectangular\""),
+        move |s, t| seen(direction(s, t)),
+    )
+    .with_kinks()
+    .file(file())
+    .mistake("a panorama whose left is its right", move |s, t| seen(direction(1.0 - s, t)))
+    .mistake("a panorama that is turned by a quarter", move |s, t| seen(turned_back(direction(s, t), 90.0)))
+    .mistake("rows of equal solid angles", |s, t| {
+        let (azimuth, height) = (PI * (2.0 * s - 1.0), 1.0 - 2.0 * t);
+        let level = (1.0 - height * height).max(0.0).sqrt();
+        seen([azimuth.sin() * level, height, -azimuth.cos() * level])
+    })
+}
+
+/// A lens whose distances from the middle are angles from the axis.
+fn fisheye() -> Test {
+    const HALF_ANGLE: f64 = 70.0;
+    let direction = |angle: fn(f64) -> f64| {
+        move |s: f64, t: f64| {
+            let [x, y] = [2.0 * s - 1.0, 1.0 - 2.0 * t];
+            let distance = x.hypot(y);
+            let (sine, cosine) = angle(distance / 2f64.sqrt()).sin_cos();
+            [sine * x / distance, sine * y / distance, -cosine]
+        }
+    };
+    let equidistant = direction(|distance| distance * HALF_ANGLE.to_radians());
+    let equisolid = direction(|distance| 2.0 * (distance * (0.5 * HALF_ANGLE.to_radians()).sin()).asin());
+    let flat = direction(|distance| (distance * HALF_ANGLE.to_radians().tan()).atan());
+    Test::of_formula(
+        [
+            "cameras/fisheye",
+            "An equidistant fisheye of 140 degrees from corner to corner.",
+            "`fisheye` of the scene file: the distance from the middle is in proportion to the angle",
+        ],
+        by_lens([64, 64], "projection = \"fisheye\"\nfov = 140\nmapping = \"equidistant\"\nfit = \"diagonal\""),
+        move |s, t| seen(equidistant(s, t)),
+    )
+    .with_kinks()
+    .file(file())
+    .mistake("an equisolid lens", move |s, t| seen(equisolid(s, t)))
+    .mistake("a perspective of the same angle", move |s, t| seen(flat(s, t)))
+    .mistake("a picture of the surroundings whose left is its right", move |s, t| seen(equidistant(1.0 - s, t)))
 }

@@ -44,7 +44,7 @@ fn polygon_light(texts: [&'static str; 3], corners: Vec<[f64; 3]>) -> Test {
 }
 
 pub fn tests() -> Vec<Test> {
-    [points(), directions(), areas(), films()].into_iter().flatten().collect()
+    [points(), directions(), areas(), films(), vec![projector()]].into_iter().flatten().collect()
 }
 
 fn points() -> Vec<Test> {
@@ -368,4 +368,52 @@ fn films() -> Vec<Test> {
         .mistake("a missing cosine", |_, _| scaled(COLOR, 2.0 * REFLECTANCE))
         .mistake("a reflectance that is not divided by π", |_, _| scaled(COLOR, PI * REFLECTANCE)),
     ]
+}
+
+/// A picture of 4 × 4 texels that a light projects onto the plane.
+fn projector() -> Test {
+    const LIGHT: [f64; 3] = [0.1, -0.05, 2.0];
+    const VFOV: f64 = 40.0;
+    let code = |x: u32, y: u32| (f64::from((x * 5 + y * 3) % 7) / 6.0 * 255.0).round() as u8;
+    let file = png("slide.png", [4, 4], move |x, y| {
+        let code = code(x, y);
+        [code, code, code, 255]
+    });
+    let tables = format!(
+        "[[texture]]\nname = \"slide\"\ntype = \"image\"\nfile = \"slide.png\"\ncolor_space = \"linear\"\nfilter = \"nearest\"\n{}",
+        light(
+            "projector",
+            &format!(
+                "position = {LIGHT:?}\ndirection = [0, 0, -1]\nup = [0, 1, 0]\nirradiance = {COLOR:?}\nvfov = {VFOV}\ntexture = \"slide\""
+            )
+        )
+    );
+    // The picture by its texel's column from the left and row from the top, and by the cosine between axis and ray.
+    let shown = move |factor: fn(f64) -> f64, turn: fn([f64; 2]) -> [f64; 2]| {
+        move |s: f64, t: f64| {
+            let half = LIGHT[2] * (0.5 * VFOV).to_radians().tan();
+            let [x, y, _] = formulas::sub(place(s, t), LIGHT);
+            let [right, down] = turn([0.5 * (1.0 + x / half), 0.5 * (1.0 - y / half)]);
+            if !(0.0..1.0).contains(&right) || !(0.0..1.0).contains(&down) {
+                return [0.0; 3];
+            }
+            let level = f64::from(code((4.0 * right) as u32, (4.0 * down) as u32)) / 255.0;
+            let cosine = LIGHT[2] / x.hypot(y).hypot(LIGHT[2]);
+            seen(level * factor(cosine) / (LIGHT[2] * LIGHT[2]))
+        }
+    };
+    Test::of_formula(
+        [
+            "lights/projector",
+            "A light projects a picture: a plane across its axis at distance d has the stated irradiance over d² wherever the picture is white.",
+            "`projector` of the scene file; inverse square law",
+        ],
+        lit(&tables),
+        shown(|_| 1.0, |at| at),
+    )
+    .file(file)
+    .with_edges()
+    .mistake("an intensity that is the same in all directions, and falls on the plane by its cosine cubed", shown(|cosine| cosine.powi(3), |at| at))
+    .mistake("a projected picture whose left is its right", shown(|_| 1.0, |[right, down]| [1.0 - right, down]))
+    .mistake("a projected picture that stands upside down", shown(|_| 1.0, |[right, down]| [right, 1.0 - down]))
 }

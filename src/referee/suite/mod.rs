@@ -2,6 +2,7 @@
 
 mod blends;
 mod cameras;
+mod daylight;
 mod environments;
 mod extensions;
 mod layers;
@@ -18,7 +19,7 @@ mod transport;
 use super::test::Test;
 
 /// Version of the suite: it grows where a test is added or its truth changes.
-pub const VERSION: &str = "1.1";
+pub const VERSION: &str = "1.2";
 
 /// The licence under which scenes and truths may be used.
 pub const LICENCE: &str = "CC0-1.0";
@@ -36,6 +37,7 @@ pub fn all_tests() -> Vec<Test> {
         blends::tests(),
         environments::tests(),
         transport::tests(),
+        daylight::tests(),
         media::tests(),
         layers::tests(),
         extensions::tests(),

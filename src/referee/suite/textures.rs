@@ -1,8 +1,8 @@
 //! Textures: codes, texels, edges of pictures, and where (u, v) points. A diffuse plane under a sky of radiance 1 shows its reflectance.
 
-use super::super::picture::{SceneFile, linear_to_srgb, png, srgb_to_linear};
+use super::super::picture::{SceneFile, exr, hdr, linear_to_srgb, png, srgb_to_linear, srgb_value_to_linear};
 use super::super::test::Test;
-use super::stage::{SCREEN, frontal, grazing_camera_scene, light, material, on_grazed_plane};
+use super::stage::{SCREEN, frontal, grazing_camera_scene, light, material, on_grazed_plane, shape};
 
 /// Texels along a side.
 const SIDE: u32 = 4;
@@ -78,7 +78,7 @@ fn uv(s: f64, t: f64) -> [f64; 2] {
 }
 
 pub fn tests() -> Vec<Test> {
-    [codes(), places(), wraps()].into_iter().flatten().collect()
+    [codes(), places(), wraps(), vec![of_corners(), of_high_range(), of_floats()]].into_iter().flatten().collect()
 }
 
 fn codes() -> Vec<Test> {
@@ -292,4 +292,132 @@ fn wraps() -> Vec<Test> {
             Wrap::Repeat,
         ),
     ]
+}
+
+/// Colours of a square's corners, over its two triangles.
+fn of_corners() -> Test {
+    // Codes of the corners: lower left, lower right, upper right, upper left.
+    const CODES: [[u8; 3]; 4] = [[230, 30, 60], [40, 200, 90], [110, 60, 240], [250, 220, 20]];
+    // Two triangles, each with its first corner at the lower left.
+    const TRIANGLES: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+    let texel = |x: u32, y: u32| {
+        let corner = match (x % 2, y) {
+            (0, 0) => Some(0),
+            (1, 0) => Some(1),
+            (0, 1) => Some(2),
+            _ => None,
+        };
+        let [r, g, b] = corner.map_or([0; 3], |corner: usize| CODES[TRIANGLES[(x / 2) as usize][corner]]);
+        [r, g, b, 255]
+    };
+    let texture = "[[texture]]\nname = \"corners\"\ntype = \"image\"\nfile = \"corners.png\"\ncolor_space = \"linear\"\n\
+                   filter = \"triangle\"\n";
+    let keys = "positions = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, -1, 0], [1, 1, 0], [-1, 1, 0]]\nfaces = [[0, 1, 2], [3, 4, 5]]\n\
+                uvs = [[0.125, 0.75], [0.375, 0.75], [0.125, 0.25], [0.625, 0.75], [0.875, 0.75], [0.625, 0.25]]";
+    let scene = frontal(&format!(
+        "{texture}{}{}{}",
+        material("m", "type = \"diffuse\"\nreflectance = { texture = \"corners\" }"),
+        shape("mesh", "m", keys),
+        light("environment", "radiance = 1")
+    ));
+    let between = |decode: fn(u8) -> f64| {
+        move |s: f64, t: f64| -> [f64; 3] {
+            let [x, y] = uv(s, t);
+            let weights = if x > y { [1.0 - x, x - y, y, 0.0] } else { [1.0 - y, 0.0, x, y - x] };
+            std::array::from_fn(|channel| (0..4).map(|corner| weights[corner] * decode(CODES[corner][channel])).sum())
+        }
+    };
+    let by_code = |code: u8| f64::from(code) / 255.0;
+    let flat = CODES[0].map(by_code);
+    Test::of_formula(
+        [
+            "textures/vertex-colours",
+            "Colours of a mesh's corners are linear, and are interpolated over each of its triangles.",
+            "glTF: COLOR_0, linear; interpolation by barycentric coordinates",
+        ],
+        scene,
+        between(by_code),
+    )
+    .file(png("corners.png", [4, 2], texel))
+    .with_kinks()
+    .mistake("colours of corners that are read as sRGB", between(srgb_to_linear))
+    .mistake("one colour for a face, that of its first corner", move |_, _| flat)
+    .mistake("colours of corners that are left out", |_, _| [1.0; 3])
+}
+
+/// Column and row of the texel at a point of the film, of a picture that fills it.
+fn texel_at(s: f64, t: f64) -> [u32; 2] {
+    [s, t].map(|place| ((place * f64::from(SIDE)) as u32).min(SIDE - 1))
+}
+
+/// A glowing plane by a Radiance picture whose values go up to 128.
+fn of_high_range() -> Test {
+    let exponent = |x: u32, y: u32| ((x * 2 + y * 3) % 7) as i32;
+    let mantissa = |x: u32, y: u32| -> [f64; 3] {
+        let level = |a: u32, b: u32| f64::from(2 + (x * a + y * b) % 11 * 3) / 16.0;
+        [level(3, 4), level(5, 2), level(1, 7)]
+    };
+    let value = move |x: u32, y: u32| mantissa(x, y).map(|channel| channel * 2f64.powi(exponent(x, y)));
+    let shown = move |change: fn(f64) -> f64| {
+        move |s: f64, t: f64| {
+            let [x, y] = texel_at(s, t);
+            value(x, y).map(change)
+        }
+    };
+    let texture = "[[texture]]\nname = \"glow\"\ntype = \"image\"\nfile = \"glow.hdr\"\nfilter = \"nearest\"\n";
+    let plane = material("m", "type = \"emissive\"\nradiance = { texture = \"glow\" }");
+    Test::of_formula(
+        [
+            "textures/high-range",
+            "A surface glows by a Radiance picture, whose values go up to 128.",
+            "Ward 1991, Real pixels: a channel is its mantissa times two to the shared exponent; values are linear",
+        ],
+        frontal(&format!("{texture}{plane}{SCREEN}")),
+        shown(|channel| channel),
+    )
+    .file(hdr("glow.hdr", [SIDE; 2], move |x, y| value(x, y).map(|channel| channel as f32)))
+    .with_edges()
+    .mistake("values that end at 1", shown(|channel| channel.min(1.0)))
+    .mistake("values that are decoded as sRGB", shown(srgb_value_to_linear))
+    .mistake("mantissas without their exponents", move |s, t| {
+        let [x, y] = texel_at(s, t);
+        mantissa(x, y)
+    })
+    .mistake("a texture that stands upside down", move |s, t| {
+        let [x, y] = texel_at(s, t);
+        value(x, SIDE - 1 - y)
+    })
+}
+
+/// A dark plane by a picture of floating-point numbers.
+fn of_floats() -> Test {
+    let value = |x: u32, y: u32| -> [f64; 3] {
+        let level = |a: u32, b: u32| 0.0013 * 2f64.powi(((x * a + y * b) % 9) as i32);
+        [level(2, 5), level(4, 1), level(1, 3)]
+    };
+    let shown = move |change: fn(f64) -> f64| {
+        move |s: f64, t: f64| {
+            let [x, y] = texel_at(s, t);
+            value(x, y).map(change)
+        }
+    };
+    let texture = "[[texture]]\nname = \"dark\"\ntype = \"image\"\nfile = \"dark.exr\"\nfilter = \"nearest\"\n";
+    let plane = material("m", "type = \"diffuse\"\nreflectance = { texture = \"dark\" }");
+    Test::of_formula(
+        [
+            "textures/floats",
+            "Reflectances from 0.0013 to 0.33 by an OpenEXR picture of floating-point numbers.",
+            "OpenEXR: values are linear",
+        ],
+        frontal(&format!("{texture}{plane}{SCREEN}{}", light("environment", "radiance = 1"))),
+        shown(|channel| channel),
+    )
+    .file(exr("dark.exr", [SIDE; 2], move |x, y| value(x, y).map(|channel| channel as f32)))
+    .with_edges()
+    .mistake("floating-point numbers that are rounded to codes of 8 bits", shown(|channel| (channel * 255.0).round() / 255.0))
+    .mistake("floating-point numbers that are decoded as sRGB", shown(srgb_value_to_linear))
+    .mistake("a texture that stands upside down", move |s, t| {
+        let [x, y] = texel_at(s, t);
+        value(x, SIDE - 1 - y)
+    })
 }

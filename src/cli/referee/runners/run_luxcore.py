@@ -90,6 +90,13 @@ def shape(scene, number, entry):
         center, radius = entry["center"], entry["radius"]
         normals, triangles = grid(512, 256, normal)
         points = [tuple(center[k] + radius * n[k] for k in range(3)) for n in normals]
+    elif kind == "mesh":
+        # No material has a texture here, so texture coordinates say nothing.
+        only(entry, kind, "positions", "faces", "normals", "uvs", "material")
+        points = [tuple(map(float, point)) for point in entry["positions"]]
+        triangles = [tuple(face) for face in entry["faces"]]
+        if "normals" in entry:
+            normals = [tuple(map(float, normal)) for normal in entry["normals"]]
     else:
         raise Unsupported(f"the shape {kind}")
     scene.DefineMesh(name, points, triangles, normals, None, None, None)
