@@ -125,6 +125,7 @@ fn scene() -> Scene {
         radiance: EnvironmentRadiance::Map(pixels(4, 2)),
         rotation_degrees: 0.0,
         rows: Default::default(),
+        turn: None,
         mirrored: false,
     };
     scene.lights = vec![
@@ -179,7 +180,7 @@ fn each_mistake_is_named_with_its_part() {
         scene.materials[0].emission = Some(Emission { radiance, two_sided: false });
     }
     fn environment(radiance: EnvironmentRadiance) -> Light {
-        Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default(), mirrored: false })
+        Light::Environment(Environment { radiance, rotation_degrees: 0.0, turn: None, rows: Default::default(), mirrored: false })
     }
     let cases: &[(Change, &str)] = &[
         (|s| medium(s).scattering = Spectrum::grey(-1.0), "medium `fog`: its scattering must be finite and not negative"),
