@@ -12,8 +12,9 @@ const FOLDERS: [&str; 10] =
     ["src/", "crates/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
 /// Documents about the past: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
-/// Flags of cargo, openjd, docker, gh and oiiotool that documents use.
-const FLAGS_OF_OTHERS: [&str; 13] = [
+/// Flags of cargo, openjd, docker, gh, oiiotool and Blender that documents use.
+const FLAGS_OF_OTHERS: [&str; 14] = [
+    "--background",
     "--release",
     "--locked",
     "--path",
