@@ -97,6 +97,7 @@ fn green(pixels: &[[f32; 3]]) -> f64 {
 
 /// A point light's light is multiplied by what each surface in between lets through, whatever traces the shadow ray.
 #[test]
+#[ignore = "slow"]
 fn translucent_surfaces_multiply_the_light_of_a_point_light() {
     // ρ/π · I/d²
     let free = 0.5 / std::f64::consts::PI * 2.0 / 16.0;

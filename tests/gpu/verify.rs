@@ -23,6 +23,7 @@ fn closed_forms_hold_on_the_device() {
 }
 
 #[test]
+#[ignore = "slow"]
 fn closed_forms_notice_each_fault() {
     let Some(device) = DEVICE.as_ref() else { return };
     // How many of them have something for the fault to act on.

@@ -349,6 +349,7 @@ fn a_wide_panel_in_a_coordinate_plane_does_not_shade_itself() {
 
 /// Lamps of every kind, one of them moving, with the sky and without it; few of them, where it is asked for; and all of a wavefront's stages.
 #[test]
+#[ignore = "slow"]
 fn a_tree_of_lights_agrees() {
     let mut bazaar = super::small("bazaar", 48, 8);
     if in_full("the tree of a bazaar's lights by the wavefront") {
@@ -416,6 +417,7 @@ pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
 /// degree, spheres drawn from otherwise, and portals that one device does not know of. The reference renders
 /// the changed scene, so that the device needs few kernels.
 #[test]
+#[ignore = "slow"]
 fn other_lights_are_noticed() {
     let thrown = load(&[SLIDE, THROWN]);
     let mut of_thrown = vec![thrown.clone(); 2];

@@ -235,6 +235,7 @@ fn every_way_to_draw_places_agrees() {
 
 /// Several light samples at a place, which the wavefront keeps side by side.
 #[test]
+#[ignore = "slow"]
 fn several_light_samples_agree() {
     for (way, options) in ways() {
         let mut scene = scene(BODIES);

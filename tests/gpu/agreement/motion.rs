@@ -236,6 +236,7 @@ fn a_moving_shape_of_pass_is_still() {
 
 /// A motion that differs by a hundredth in one step is noticed, and so is another shutter.
 #[test]
+#[ignore = "slow"]
 fn another_motion_is_noticed() {
     let scene = stage(&[&mesh("checked")]);
     let mut changes = vec![scene.clone(); 4];

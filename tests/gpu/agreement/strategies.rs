@@ -136,6 +136,7 @@ fn another_sampler_is_noticed() {
 
 /// Likewise a filter, a lens or a focus that differs a little.
 #[test]
+#[ignore = "slow"]
 fn another_camera_is_noticed() {
     let scene = through_a_lens(ApertureShape::Polygon { blades: 7, rotation_degrees: 10.0 }, None);
     let mut changes = vec![scene.clone(); 4];

@@ -164,6 +164,7 @@ fn product(scene: &mut Scene) -> &mut gpt::scene::Texture {
 /// The test must notice another channel, a texture that is turned the other way, one that is not as far away,
 /// and other products.
 #[test]
+#[ignore = "slow"]
 fn another_channel_and_another_place_are_noticed() {
     let Some(device) = DEVICE.as_ref() else { return };
     let folder = tempfile::tempdir().expect("a temporary folder");
