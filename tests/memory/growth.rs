@@ -8,6 +8,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 use std::time::Duration;
 
+use crate::clock;
 use crate::common::effort::in_full;
 use crate::common::files::folder_with;
 use crate::counting::{bytes_ever, take_turn};
@@ -38,23 +39,6 @@ fn prepare(scene: &Scene) {
     black_box(ReferenceRenderer::new(&scene).expect("it can be rendered"));
 }
 
-/// Processor time that this thread took so far.
-#[cfg(unix)]
-fn time_of_thread() -> Duration {
-    let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
-    // SAFETY: the pointer is to a `timespec` that outlives the call.
-    let status = unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &raw mut time) };
-    assert_eq!(status, 0, "every Unix has this clock");
-    Duration::new(time.tv_sec as u64, time.tv_nsec as u32)
-}
-
-/// Time since some moment, where threads have no clock of their own.
-#[cfg(not(unix))]
-fn time_of_thread() -> Duration {
-    static START: LazyLock<std::time::Instant> = LazyLock::new(std::time::Instant::now);
-    START.elapsed()
-}
-
 /// Makes the allocator keep what it once had: how long it takes to get pages anew depends on the machine, and on whether the sum of what is in
 /// use passes some threshold.
 fn keep_pages() {
@@ -78,9 +62,9 @@ fn excess(size: usize, work: impl Fn(usize) + Sync) -> Option<String> {
             let before = bytes_ever();
             // On one thread, whose time is known and does not grow where the machine is busy.
             let time = one_thread.install(|| {
-                let start = time_of_thread();
+                let start = clock::of_thread();
                 work(size);
-                time_of_thread() - start
+                clock::of_thread() - start
             });
             shortest = shortest.min(time);
             bytes = bytes_ever() - before;
@@ -109,9 +93,9 @@ fn assert_bounded(what: &str, size: usize, scene: impl Fn(usize) -> Scene + Sync
         let scene = scene(size);
         let time_of = |work: &(dyn Fn() + Sync)| {
             one_thread.install(|| {
-                let start = time_of_thread();
+                let start = clock::of_thread();
                 work();
-                time_of_thread() - start
+                clock::of_thread() - start
             })
         };
         let without_trial_runs = time_of(&|| drop(black_box(Integrator::new(&scene).expect("it can be rendered"))));

@@ -5,6 +5,7 @@ mod common;
 #[path = "../statistics/random.rs"]
 mod random;
 
+mod clock;
 mod counting;
 mod growing_imports;
 mod growth;
