@@ -27,7 +27,7 @@ def with_render_depsgraph(scene, work):
 
     bpy.utils.register_class(Exporter)
     render = scene.render
-    kept = {name: getattr(render, name) for name in ("engine", "use_compositing", "use_sequencer", "use_border", "filepath")}
+    kept = {name: getattr(render, name) for name in ("engine", "use_compositing", "use_sequencer")}
     try:
         # No picture is made, so nothing is done to it.
         render.engine = "GPT_EXPORT"

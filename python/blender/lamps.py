@@ -61,7 +61,7 @@ def _power(lamp, where, report, graph):
 
 
 def _unsaid(lamp_object, lamp, where, report):
-    if lamp.spread < math.pi - 1e-4 if lamp.type == "AREA" else False:
+    if lamp.type == "AREA" and lamp.spread < math.pi - 1e-4:
         report.add(where, f"a spread of {math.degrees(lamp.spread):g} degrees", "it shines in all directions of its front, with the same radiance along its axis")
     for name in ("diffuse", "glossy", "transmission", "volume_scatter"):
         if not getattr(lamp_object, f"visible_{name}", True):

@@ -19,7 +19,7 @@ def export(scene, path):
     baked = {}
     if scene.world is not None:
         # A render within a render is not possible: a world that needs Cycles is looked at first.
-        world.export(scene.world, SceneFile(path), Report(), lambda of, size: baked.setdefault("picture", _baked(of, size)))
+        world.export(scene.world, SceneFile(path), Report(), lambda of, size: baked.setdefault("picture", engine.bake_world(of, size)))
     flags = settings.export(scene, file, report)
     if scene.camera is None:
         raise ValueError("the scene has no camera: add one, or choose one in the scene's properties")
@@ -32,10 +32,6 @@ def export(scene, path):
         comments += ["What could not be said:", *[f"- {line}" for line in report.lines]]
     file.write(comments)
     return report, flags
-
-
-def _baked(of, size):
-    return engine.bake_world(of, size)
 
 
 def _objects(scene, depsgraph, file, report):

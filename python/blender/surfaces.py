@@ -62,7 +62,8 @@ class Surfaces:
         return self.values.color(node.inputs[name])
 
     def number(self, node, name):
-        return self.values.number(node.inputs[name])
+        """The colour of an input that takes a number: a constant's red channel is the number."""
+        return self.values.color(node.inputs[name])
 
     def constant(self, node, name):
         return self.values.constant(node.inputs[name], node, name)

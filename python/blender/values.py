@@ -127,10 +127,6 @@ class Values:
             return self.luminance(value, vector=output.type == "VECTOR")
         return value
 
-    def number(self, socket):
-        """As `color`, of a socket that takes a number; a constant's red channel is the number."""
-        return self.color(socket)
-
     def constant(self, socket, node, name):
         """One number, a picture's mean where there is a picture."""
         value = self.color(socket)
@@ -545,7 +541,7 @@ class Textures:
         if picture._pixels is None or picture.image is not None:
             key = picture.image.name_full
             if key not in self._files:
-                self._files[key] = self._copy(picture.image)
+                self._files[key] = self.copied(picture.image)
             return {"file": self._files[key], "color_space": "srgb" if is_encoded(picture.image) else "linear"}
         key = picture._pixels.tobytes(), picture._pixels.shape
         if key not in self._files:
@@ -553,7 +549,7 @@ class Textures:
             write_exr(path, picture._pixels)
         return {"file": self._files[key], "color_space": "linear"}
 
-    def _copy(self, image):
+    def copied(self, image):
         """The image's own bytes where there are some and gpt reads them, else its texels."""
         import bpy
 

@@ -85,7 +85,7 @@ def _map(node, factor, values, file, report, where):
     identity = numpy.array([[1.0, 0, 0], [0, 1, 0]])
     picture = Picture(image.name, ("world",), identity, image=image)
     if image.filepath.lower().endswith((".exr", ".hdr")) and image.is_float:
-        reference = Textures(file, report)._copy(image)
+        reference = Textures(file, report).copied(image)
     else:
         path, reference = file.new_file(image.name, ".exr")
         write_exr(path, picture.pixels[..., :3])

@@ -43,16 +43,11 @@ pub fn hdr(name: &'static str, [width, height]: [u32; 2], texel: impl Fn(u32, u3
 ///
 /// # Panics
 /// Memory is at an end.
-pub fn exr(name: &'static str, [width, height]: [u32; 2], texel: impl Fn(u32, u32) -> [f32; 3]) -> SceneFile {
+pub fn exr(name: &'static str, [width, height]: [u32; 2], texel: impl Fn(u32, u32) -> [f32; 3] + Sync) -> SceneFile {
     use exr::prelude::*;
-    let channel = |name: &str, index: usize| {
-        let texels = (0..width * height).map(|place| texel(place % width, place / width)[index]);
-        AnyChannel::new(name, FlatSamples::F32(texels.collect()))
-    };
-    let channels = AnyChannels::sort([channel("R", 0), channel("G", 1), channel("B", 2)].into_iter().collect());
-    let size = (width as usize, height as usize);
-    let image = Image::from_layer(Layer::new(size, LayerAttributes::default(), Encoding::UNCOMPRESSED, channels));
+    let channels = SpecificChannels::rgb(|place: Vec2<usize>| <(f32, f32, f32)>::from(texel(place.x() as u32, place.y() as u32)));
     let mut bytes = Cursor::new(Vec::new());
+    let image = Image::from_channels((width as usize, height as usize), channels);
     image.write().non_parallel().to_buffered(&mut bytes).expect("memory takes it");
     SceneFile { name, bytes: bytes.into_inner() }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 use super::super::formulas::normalized;
 use super::super::picture::{SceneFile, hdr};
 use super::super::test::Test;
-use super::stage::{SCREEN, diffuse, frontal, light, material, on_plane, scaled, scene, sized};
+use super::stage::{SCREEN, diffuse, frontal, light, material, on_plane, scaled, scene, shape, sized};
 
 const WIDTH: u32 = 16;
 const HEIGHT: u32 = 8;
@@ -67,12 +67,14 @@ impl View {
 
     fn scene(self, keys: &str) -> String {
         let Self { forward, up, .. } = self;
-        let far = super::stage::shape("sphere", "m", "center = [0, -50, 0]\nradius = 0.001");
-        scene(
-            &format!("position = [0, 0, 0]\nlook_at = {forward:?}\nup = {up:?}\nvfov = {}\n", 2.0 * HALF),
-            &format!("{}{far}{}", diffuse(0.5), map(keys)),
-        )
+        scene(&format!("position = [0, 0, 0]\nlook_at = {forward:?}\nup = {up:?}\nvfov = {}\n", 2.0 * HALF), &surroundings(keys))
     }
+}
+
+/// The map alone, since the one shape is too small to be seen.
+fn surroundings(keys: &str) -> String {
+    let far = shape("sphere", "m", "center = [0, -50, 0]\nradius = 0.001");
+    format!("{}{far}{}", diffuse(0.5), map(keys))
 }
 
 const FRONT: View = View { forward: [0.0, 0.0, -1.0], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0] };
@@ -175,12 +177,7 @@ pub fn tests() -> Vec<Test> {
 
 /// The scene of [`View::scene`] with another projection and a film of this size.
 fn by_lens(size: [u32; 2], projection: &str) -> String {
-    let far = super::stage::shape("sphere", "m", "center = [0, -50, 0]\nradius = 0.001");
-    sized(
-        size,
-        &format!("position = [0, 0, 0]\nlook_at = [0, 0, -1]\n{projection}\n"),
-        &format!("{}{far}{}", diffuse(0.5), map("")),
-    )
+    sized(size, &format!("position = [0, 0, 0]\nlook_at = [0, 0, -1]\n{projection}\n"), &surroundings(""))
 }
 
 /// All directions in one picture.

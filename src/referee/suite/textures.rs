@@ -345,9 +345,15 @@ fn of_corners() -> Test {
     .mistake("colours of corners that are left out", |_, _| [1.0; 3])
 }
 
-/// Column and row of the texel at a point of the film, of a picture that fills it.
-fn texel_at(s: f64, t: f64) -> [u32; 2] {
-    [s, t].map(|place| ((place * f64::from(SIDE)) as u32).min(SIDE - 1))
+/// A picture that fills the film, by its value at a column and a row, each channel changed.
+fn filling(
+    value: impl Fn(u32, u32) -> [f64; 3] + Send + Sync + 'static,
+    change: fn(f64) -> f64,
+) -> impl Fn(f64, f64) -> [f64; 3] + Send + Sync + 'static {
+    move |s, t| {
+        let [x, y] = [s, t].map(|place| ((place * f64::from(SIDE)) as u32).min(SIDE - 1));
+        value(x, y).map(change)
+    }
 }
 
 /// A glowing plane by a Radiance picture whose values go up to 128.
@@ -358,12 +364,7 @@ fn of_high_range() -> Test {
         [level(3, 4), level(5, 2), level(1, 7)]
     };
     let value = move |x: u32, y: u32| mantissa(x, y).map(|channel| channel * 2f64.powi(exponent(x, y)));
-    let shown = move |change: fn(f64) -> f64| {
-        move |s: f64, t: f64| {
-            let [x, y] = texel_at(s, t);
-            value(x, y).map(change)
-        }
-    };
+    let shown = move |change: fn(f64) -> f64| filling(value, change);
     let texture = "[[texture]]\nname = \"glow\"\ntype = \"image\"\nfile = \"glow.hdr\"\nfilter = \"nearest\"\n";
     let plane = material("m", "type = \"emissive\"\nradiance = { texture = \"glow\" }");
     Test::of_formula(
@@ -379,14 +380,8 @@ fn of_high_range() -> Test {
     .with_edges()
     .mistake("values that end at 1", shown(|channel| channel.min(1.0)))
     .mistake("values that are decoded as sRGB", shown(srgb_value_to_linear))
-    .mistake("mantissas without their exponents", move |s, t| {
-        let [x, y] = texel_at(s, t);
-        mantissa(x, y)
-    })
-    .mistake("a texture that stands upside down", move |s, t| {
-        let [x, y] = texel_at(s, t);
-        value(x, SIDE - 1 - y)
-    })
+    .mistake("mantissas without their exponents", filling(mantissa, |channel| channel))
+    .mistake("a texture that stands upside down", filling(move |x, y| value(x, SIDE - 1 - y), |channel| channel))
 }
 
 /// A dark plane by a picture of floating-point numbers.
@@ -395,12 +390,7 @@ fn of_floats() -> Test {
         let level = |a: u32, b: u32| 0.0013 * 2f64.powi(((x * a + y * b) % 9) as i32);
         [level(2, 5), level(4, 1), level(1, 3)]
     };
-    let shown = move |change: fn(f64) -> f64| {
-        move |s: f64, t: f64| {
-            let [x, y] = texel_at(s, t);
-            value(x, y).map(change)
-        }
-    };
+    let shown = move |change: fn(f64) -> f64| filling(value, change);
     let texture = "[[texture]]\nname = \"dark\"\ntype = \"image\"\nfile = \"dark.exr\"\nfilter = \"nearest\"\n";
     let plane = material("m", "type = \"diffuse\"\nreflectance = { texture = \"dark\" }");
     Test::of_formula(
@@ -416,8 +406,5 @@ fn of_floats() -> Test {
     .with_edges()
     .mistake("floating-point numbers that are rounded to codes of 8 bits", shown(|channel| (channel * 255.0).round() / 255.0))
     .mistake("floating-point numbers that are decoded as sRGB", shown(srgb_value_to_linear))
-    .mistake("a texture that stands upside down", move |s, t| {
-        let [x, y] = texel_at(s, t);
-        value(x, SIDE - 1 - y)
-    })
+    .mistake("a texture that stands upside down", filling(move |x, y| value(x, SIDE - 1 - y), |channel| channel))
 }
