@@ -1,5 +1,6 @@
 // Camera rays. src/reference/camera.rs is the same in f64.
 #import core/camera_models.wgsl
+#import core/exposure.wgsl
 #import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
@@ -78,7 +79,7 @@ fn pose_of(pixel: u32, sample_in_pass: u32) -> Pose {
     if !HAS_CAMERA_MOTION {
         return Pose(view.position, view.corner, view.step_x, view.step_y, view.forward, view.lens_u, view.lens_v, view.eye);
     }
-    let scaled = uniform_float(random_block(pixel, sample_in_pass, 1u).x) * f32(EXPOSURE_STRETCHES);
+    let scaled = time_of_path(pixel, sample_in_pass) * f32(EXPOSURE_STRETCHES);
     let stretch = min(u32(scaled), EXPOSURE_STRETCHES - 1u);
     let share = scaled - f32(stretch);
     return Pose(

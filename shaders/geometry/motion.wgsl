@@ -1,7 +1,7 @@
 // Shapes that move while the shutter is open. Everything is moved to where it is at the path's time before it is looked at.
+#import core/exposure.wgsl
 #import core/layout.wgsl
 #import core/math.wgsl
-#import core/sampler.wgsl
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
 
@@ -20,7 +20,7 @@ var<private> known: Motion;
 
 // To be called before anything is asked of the scene for a path.
 fn set_path_time(pixel: u32, sample_in_pass: u32) {
-    path_time = uniform_float(random_block(pixel, sample_in_pass, 1u).x);
+    path_time = time_of_path(pixel, sample_in_pass);
     known_motion = NONE;
 }
 

@@ -28,6 +28,8 @@ pub struct View {
     pub model: [[f32; 4]; 4],
     /// One over the distance at which the eyes converge.
     pub convergence: [f32; 4],
+    /// Between the moments at which two rows begin to be exposed, and how long each is, as shares of the exposure.
+    pub rolling: [f32; 4],
     /// Words that the shader of the light from outside the scene reads; its radiance where it is constant.
     pub environment: [[f32; 4]; 3],
     /// Inverse cumulative distribution of the filter, piece by piece.
@@ -56,6 +58,7 @@ impl View {
         let size = DVec2::from(scene.camera.view_size(scene.film.size).map(f64::from));
         let model = scene.camera.projection.model().map_or([DVec4::ZERO; 4], |model| model.words(size));
         let convergence = scene.camera.stereo.map_or(0.0, |stereo| stereo.inverse_convergence());
+        let from_row_to_row = scene.camera.time_of_row(1, scene.film.size[1], 0.0);
         Self {
             position,
             corner,
@@ -67,6 +70,7 @@ impl View {
             eye,
             model: model.map(|word| word.as_vec4().to_array()),
             convergence: [convergence as f32, 0.0, 0.0, 0.0],
+            rolling: [from_row_to_row as f32, scene.camera.rolling_shutter as f32, 0.0, 0.0],
             environment: environment.words.map(|word| word.as_vec4().to_array()),
             filter_curve: *FilterSampler::new(scene.film.filter).curve(),
             exposure,

@@ -284,6 +284,8 @@ fn enable_camera(switches: &mut Switches, scene: &Scene) -> u32 {
     switches.enable("ORTHOGRAPHIC", window.is_some_and(|window| window.is_parallel));
     enable_camera_model(switches, camera, window.is_none());
     switches.enable("CAMERA_MOTION", !scene.exposure.is_empty());
+    let moves = switches.enabled.contains("MOTION") || !scene.exposure.is_empty();
+    switches.enable("ROLLING_SHUTTER", camera.rolling_shutter < 1.0 && moves);
     switches.enable("LENS", scene.camera.aperture.is_some());
     let shape = scene.camera.aperture.map(|aperture| aperture.shape);
     switches.enable("APERTURE_SQUARE", shape == Some(ApertureShape::Square));

@@ -18,6 +18,8 @@ pub struct CameraRays {
     /// Columns and rows of views in the picture, and their size in pixels.
     tiles: [u32; 2],
     view: [u32; 2],
+    /// Rows of the picture.
+    rows: u32,
     filter: FilterSampler,
 }
 
@@ -80,6 +82,7 @@ impl CameraRays {
             camera: camera.clone(),
             tiles: camera.tiles(),
             view,
+            rows: film.size[1],
             filter: FilterSampler::new(film.filter),
         }
     }
@@ -103,13 +106,23 @@ impl CameraRays {
         let lens = self.camera.aperture.map_or(DVec2::ZERO, |aperture| {
             aperture.radius * aperture_point(aperture.shape, bits(CameraDimension::LensU), bits(CameraDimension::LensV))
         });
-        let time = if self.poses.len() > 1 { sampler.uniform(Dimension::camera(CameraDimension::Time)) } else { 0.0 };
+        let time = if self.poses.len() > 1 { self.time(y, sampler) } else { 0.0 };
         self.ray([x, y], DVec2::new(film_x, film_y), lens, time)
     }
 
-    /// The ray of a pixel through the middle of its place and of the lens as the shutter opens; None where it sees nothing.
+    /// When a sample of row y sees the scene, uniform over the time for which the row is exposed: 0 as the shutter opens, 1 as it closes.
+    pub fn time(&self, y: u32, sampler: &PathSampler) -> f64 {
+        self.camera.time_of_row(y, self.rows, sampler.uniform(Dimension::camera(CameraDimension::Time)))
+    }
+
+    /// When row y is first exposed: 0 as the shutter opens, 1 as it closes.
+    pub fn start(&self, y: u32) -> f64 {
+        self.camera.time_of_row(y, self.rows, 0.0)
+    }
+
+    /// The ray of a pixel through the middle of its place and of the lens when it is first exposed; None where it sees nothing.
     pub fn middle(&self, x: u32, y: u32) -> Option<Ray> {
-        self.ray([x, y], DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5), DVec2::ZERO, 0.0)
+        self.ray([x, y], DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5), DVec2::ZERO, self.start(y))
     }
 
     /// The ray of a pixel through a film position in pixels: x to the right, y down, (0, 0) the picture's upper left corner; None where it sees

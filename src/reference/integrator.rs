@@ -32,7 +32,7 @@ use crate::sampling::choice::Choice;
 use crate::sampling::hash::mix;
 use crate::sampling::mis::Heuristic;
 use crate::sampling::sampler::uniform;
-use crate::sampling::{CameraDimension, Dimension, Guide, LightSampleContext, MediumDimension, PathSampler, VertexDimension};
+use crate::sampling::{Dimension, Guide, LightSampleContext, MediumDimension, PathSampler, VertexDimension};
 use crate::scene::{Emitters, Estimator, Filling, Media, MediumGrids, Scene};
 use crate::spectrum::Spectrum;
 
@@ -104,7 +104,7 @@ impl Integrator {
         Some(Path {
             reference: ray.origin.into(),
             ray,
-            time: self.path_time(sampler),
+            time: self.path_time(y, sampler),
             throughput: Spectrum::WHITE,
             radiance: Spectrum::BLACK,
             eta_scale: 1.0,
@@ -116,13 +116,18 @@ impl Integrator {
         })
     }
 
-    /// Uniform over the time for which the shutter is open.
-    fn path_time(&self, sampler: &PathSampler) -> PathTime {
+    /// Uniform over the time for which the pixel's row is exposed.
+    fn path_time(&self, y: u32, sampler: &PathSampler) -> PathTime {
         if !self.moves {
             return PathTime::default();
         }
+        self.time_within_exposure(self.camera.time(y, sampler))
+    }
+
+    /// A time between those at which the shutter opens, 0, and closes, 1.
+    fn time_within_exposure(&self, share: f64) -> PathTime {
         let [open, close] = self.scene.camera.shutter;
-        PathTime::new(&self.scene, open + (close - open) * sampler.uniform(Dimension::camera(CameraDimension::Time)))
+        PathTime::new(&self.scene, open + (close - open) * share)
     }
 
     /// Extends a path whose ray met `hit`: adds the light found there, and chooses the next ray. False where

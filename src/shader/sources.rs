@@ -15,6 +15,7 @@ macro_rules! shader_files {
 shader_files![
     "core/camera.wgsl",
     "core/camera/rising.wgsl",
+    "core/exposure.wgsl",
     "core/lcg.wgsl",
     "core/math.wgsl",
     "core/octahedron.wgsl",

@@ -310,6 +310,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("RAY_QUERY").one_of(IN_HIERARCHY).excludes(&["MOTION"]),
     // Among them are lights.
     switch("RECTANGLES_BY_SOLID_ANGLE").requires(&["FLAT_LIGHTS_BY_SOLID_ANGLE", "QUAD_LIGHTS"]),
+    // Rows of the picture are exposed one after the other.
+    switch("ROLLING_SHUTTER").one_of(&["CAMERA_MOTION", "MOTION"]),
     switch("ROUGHNESS"),
     switch("ROULETTE"),
     // Some texture lies by the second texture coordinates of meshes.

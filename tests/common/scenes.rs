@@ -6,7 +6,7 @@ pub const ENOUGH: [&str; 5] = ["examples", "paints", "terrace", "bazaar", "arbou
 
 /// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
 /// `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 36] = [
+pub const ELSEWHERE: [&str; 37] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
@@ -34,6 +34,7 @@ pub const ELSEWHERE: [&str; 36] = [
     "PIXEL_HASHED",
     "PIXEL_ROTATION",
     "PORTALS",
+    "ROLLING_SHUTTER",
     "SECOND_UVS",
     "SPHERE_LIGHTS_BY_PICTURE",
     "SPHERE_LIGHTS_BY_POINT",

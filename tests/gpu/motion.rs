@@ -74,7 +74,7 @@ fn cameras() -> [Coverage; 2] {
     ]
 }
 
-fn coverages() -> [Coverage; 4] {
+fn coverages() -> [Coverage; 5] {
     // From x = −3 to 3 while the shutter is open: it passes all of the picture at a speed of 6.
     let flying = "type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.6\nmotion = [{ translate = [3, 0, 0] }]";
     // Half a bar of half width 0.3 about the z axis, a quarter of a turn: at a distance ρ it covers an angle of asin 0.3/ρ on either side.
@@ -85,7 +85,15 @@ fn coverages() -> [Coverage; 4] {
     // A mesh of a square that widens from half width 0.3 to 0.9 along x alone.
     let widening = "type = \"mesh\"\npositions = [[-0.3, -2, 0], [0.3, -2, 0], [0.3, 2, 0], [-0.3, 2, 0]]\n\
                     faces = [[0, 1, 2], [0, 2, 3]]\nmotion = [{ scale = [3, 1, 1] }]";
+    // A bar of half width 0.6 that goes from x = −3 to 3 before rows that are each exposed for a quarter of the time, from the top: it leans.
+    let passing = "type = \"rectangle\"\ncorner = [-3.6, -2, 0]\nedge_u = [1.2, 0, 0]\nedge_v = [0, 4, 0]\nmotion = [{ translate = [6, 0, 0] }]";
     [
+        ("bar before a rolling shutter", glow_before("rolling_shutter = 0.25", passing), |x, y| {
+            let row = ((1.0 - y) / 2.0 * f64::from(SIDE)).floor();
+            let start = 0.75 * row / f64::from(SIDE - 1);
+            let covered = [x + 2.4, x + 3.6].map(|time| (time / 6.0).clamp(start, start + 0.25));
+            (covered[1] - covered[0]) / 0.25
+        }),
         ("flying sphere", glow([-1.0, 1.0], flying), |_, y| 2.0 * (0.36 - y * y).max(0.0).sqrt() / 6.0),
         ("turning bar", glow([0.0, 1.0], turning), |x, y| {
             let distance = x.hypot(y);

@@ -71,10 +71,10 @@ impl Integrator {
     }
 
     /// The owner of the surface that the ray through the middle of a pixel and of the lens meets when the
-    /// shutter opens.
+    /// pixel is first exposed.
     pub fn owner_at_centre(&self, x: u32, y: u32) -> Option<Owner> {
         let mut ray = self.camera.middle(x, y)?;
-        let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
+        let time = if self.moves { self.time_within_exposure(self.camera.start(y)) } else { PathTime::default() };
         loop {
             let hit = self.world.closest(ray, &time)?;
             let surface = self.world.surface(&ray, &hit, &time);

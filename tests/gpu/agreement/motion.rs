@@ -177,6 +177,25 @@ fn all_together_agree_for_every_strategy() {
     }
 }
 
+/// Rows one after the other, with shapes and cameras that move, by either kernel; rows all at once are noticed.
+#[test]
+#[ignore = "slow"]
+fn rolling_shutters_agree() {
+    for (index, rolling_shutter) in [0.0, 0.3].into_iter().enumerate() {
+        let mut scene = filmed("vfov = 40", ["vfov = 40", "vfov = 30"]);
+        scene.camera.rolling_shutter = rolling_shutter;
+        assert_agrees(&format!("rows exposed for {rolling_shutter}"), &scene, &ways()[index]);
+        if index == 1 {
+            let mut at_once = scene.clone();
+            at_once.camera.rolling_shutter = 1.0;
+            let Some(verdict) = compare_unequal(&scene, &at_once) else { return };
+            assert!(!verdict.agrees && verdict.matching_share() < 0.97, "rows all at once: {verdict:#?}");
+            scene.exposure.clear();
+            assert_agrees("shapes alone", &scene, &ways()[0]);
+        }
+    }
+}
+
 /// The stage before a camera that flies, turns, zooms and focuses while the shutter is open, perspective or not.
 fn filmed(projection: &str, [open, close]: [&str; 2]) -> Scene {
     let keys = format!(

@@ -32,6 +32,9 @@ pub fn camera(camera: &Camera) -> String {
     if camera.shutter != Camera::default().shutter {
         out += &line("shutter", &numbers(&camera.shutter));
     }
+    if camera.rolling_shutter != Camera::default().rolling_shutter {
+        out += &line("rolling_shutter", &number(camera.rolling_shutter));
+    }
     out
 }
 

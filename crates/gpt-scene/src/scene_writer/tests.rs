@@ -82,7 +82,7 @@ fn every_light_and_camera_comes_back() {
     for camera in [
         "position = [3, 2, 1]\nlook_at = [0, 0, 0]\nup = [0, 0, 1]\nprojection = \"orthographic\"\nheight = 3",
         "position = [3, 2, 1]\nlook_at = [0, 0, 0]\nvfov = 33.3\naperture = { shape = \"polygon\", radius = 0.1, blades = 7, rotation = 11 }\n\
-         focus_distance = 2.5\nshutter = [0.25, 0.75]",
+         focus_distance = 2.5\nshutter = [0.25, 0.75]\nrolling_shutter = 0.125",
     ] {
         let text = format!(
             "[film]\nsize = [30, 20]\nfilter = {{ type = \"tent\", radius = 1.25 }}\n[render]\nspp = 7\nsampler = \"halton\"\n\

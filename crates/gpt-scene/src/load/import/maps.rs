@@ -51,6 +51,7 @@ pub fn camera_at(position: DVec3, look_at: DVec3, up: DVec3, place: &Place) -> R
         aperture: None,
         focus_distance: None,
         shutter: None,
+        rolling_shutter: None,
         keyframes: None,
         interpolation: None,
         node: None,

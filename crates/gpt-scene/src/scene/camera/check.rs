@@ -34,6 +34,9 @@ impl Camera {
         if !(open.is_finite() && close.is_finite() && open <= close) {
             return Err("the shutter closes before it opens".into());
         }
+        if !(0.0..=1.0).contains(&self.rolling_shutter) {
+            return Err(format!("rows are exposed for a share of the time from 0 to 1, and not for {}", self.rolling_shutter));
+        }
         self.check_model()?;
         self.check_views(film)
     }

@@ -60,6 +60,9 @@ pub struct Camera {
     pub stereo: Option<Stereo>,
     /// Times at which the shutter opens and closes.
     pub shutter: [f64; 2],
+    /// Share of the time between for which each row of the picture is exposed, one after the other from the top: the first as the shutter opens, the
+    /// last until it closes. 1: all at once.
+    pub rolling_shutter: f64,
 }
 
 impl Default for Camera {
@@ -75,11 +78,18 @@ impl Default for Camera {
             focus_distance: 1.0,
             stereo: None,
             shutter: [0.0, 1.0],
+            rolling_shutter: 1.0,
         }
     }
 }
 
 impl Camera {
+    /// When a row of a picture of so many rows is seen: 0 as the shutter opens, 1 as it closes. `u` is the share of the row's own exposure.
+    pub fn time_of_row(&self, row: u32, rows: u32, u: f64) -> f64 {
+        let start = f64::from(row) / f64::from(rows.max(2) - 1);
+        (1.0 - self.rolling_shutter) * start + self.rolling_shutter * u
+    }
+
     /// Orthonormal camera frame: right, up, backward (the camera looks along -backward).
     pub fn frame(&self) -> [DVec3; 3] {
         let backward = (self.position - self.look_at).normalize();

@@ -222,7 +222,12 @@ impl Writer<'_> {
             sensor = sensor.reference(&medium);
         }
         // Without motion the shutter has no effect; moving objects are reported by themselves.
-        let _ = (camera.contains_key("shutter"), camera.contains_key("focus_distance"), camera.contains_key("aperture"));
+        let _ = (
+            camera.contains_key("shutter"),
+            camera.contains_key("rolling_shutter"),
+            camera.contains_key("focus_distance"),
+            camera.contains_key("aperture"),
+        );
         let _ = camera.contains_key("medium");
         self.drop_rest(camera, "camera");
         self.xml.push(sensor);

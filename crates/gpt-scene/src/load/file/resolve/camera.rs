@@ -54,6 +54,7 @@ impl Resolver<'_> {
             focus_distance: written.focus_distance.map_or((look_at - position).length(), |distance| distance.0),
             stereo,
             shutter,
+            rolling_shutter: written.rolling_shutter.map_or(1.0, |share| share.0),
         };
         self.check_model(written)
     }

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use crate::load::file::keyframes::{CameraKeyEntry, InterpolationName};
 use crate::load::file::syntax::choice_name::ChoiceName;
 use crate::load::file::value::{
-    Azimuth, Checked, Elevation, Exactly, FieldOfView, Located, NonNegative, Number, Positive, Vector, WholeAngle,
+    Azimuth, Checked, Elevation, Exactly, FieldOfView, Fraction, Located, NonNegative, Number, Positive, Vector, WholeAngle,
 };
 use crate::load::place::Place;
 use crate::scene::{CubeLayout, FisheyeFit, FisheyeMapping, StereoLayout};
@@ -82,6 +82,9 @@ pub struct CameraTable {
     /// Times at which the shutter opens and closes, [0, 1] when left out. Where there are keyframes they count in frames from the frame itself: 1 is
     /// the next frame.
     pub shutter: Option<Located<Exactly<Number, 2>>>,
+    /// Share of that time for which each row of the picture is exposed, one after the other from the top: the first as the shutter opens, the last
+    /// until it closes; 1, all at once, when left out.
+    pub rolling_shutter: Option<Checked<Fraction>>,
     /// The camera at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
     #[schemars(extend("minItems" = 1))]
     pub keyframes: Option<Located<Vec<Located<CameraKeyEntry>>>>,
