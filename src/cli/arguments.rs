@@ -16,6 +16,7 @@ use super::access_arguments::AccessArguments;
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::denoise::DenoiseArguments;
+use super::edit::EditArguments;
 use super::exit::Exit;
 use super::film::FilmArguments;
 use super::frames::{FrameArguments, FrameList, parse_frame};
@@ -45,6 +46,8 @@ pub enum Command {
     /// Render a scene to picture files
     #[command(after_help = RENDER_EXAMPLES)]
     Render(Box<RenderArguments>),
+    /// Change the materials of a scene file in the browser, beside the picture, and save them
+    Edit(EditArguments),
     /// Cut a render into chunks for several machines, with their commands, memory and time, as JSON
     Plan(PlanArguments),
     /// Join parts of a picture that `gpt render` wrote with --first-sample or --crop

@@ -11,6 +11,7 @@ mod completions;
 mod denoise;
 mod devices;
 mod difference_page;
+mod edit;
 mod exit;
 mod export;
 mod file_arguments;
@@ -103,6 +104,7 @@ pub fn run() -> ExitCode {
     start_threads();
     let outcome = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Edit(arguments) => edit::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments, &typed),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Denoise(arguments) => denoise::run(&arguments),

@@ -1,4 +1,5 @@
-//! A render shown while it goes on: on a page in the browser (`--view`), in tev (`--display`), and again whenever a file changes (`--watch`).
+//! A render shown while it goes on: on a page in the browser (`--view`), in tev (`--display`), and again whenever a file changes (`--watch`). The page
+//! of `gpt edit` has a panel beside the picture.
 //!
 //! The render puts what it has on a [`live_state`] and goes on. Threads of the server and of tev read it there.
 
@@ -6,6 +7,7 @@ mod arguments;
 mod browser;
 mod layers;
 mod live_state;
+mod panel;
 mod request;
 mod server;
 mod tev;
@@ -23,6 +25,7 @@ use gpt::{IntervalEstimate, Observer};
 pub use arguments::ViewArguments;
 use live_state::LiveState;
 pub use live_state::Phase;
+pub use panel::{Panel, Reply};
 use server::Server;
 
 use super::exit::Failure;
@@ -31,6 +34,8 @@ use super::{interrupt, terminal};
 
 /// Time between two looks at the files of the scene, and between two at Ctrl-C.
 const LOOK_INTERVAL: Duration = Duration::from_millis(100);
+/// Time between two looks at whether the render is to begin again, which somebody waits for.
+const WAKING: Duration = Duration::from_millis(5);
 /// A program that writes a file is given so long to end it.
 const SETTLING: Duration = Duration::from_millis(40);
 
@@ -61,24 +66,44 @@ impl Live {
             live.tev = Some(tev::start(address, state.clone()).map_err(refused)?);
         }
         if arguments.view {
-            let failed = |error| Failure::Other(format!("--view: the page cannot be served: {error}"));
-            let server = Server::start(state.clone()).map_err(failed)?;
-            terminal::note(&format!("the picture is shown at {}", server.url));
-            browser::open(&server.url);
-            live.url = Some(server.url);
+            live.serve(&state, None)?;
         }
         if arguments.watch {
-            let changed = Arc::new(AtomicBool::new(false));
-            let (flag, files) = (changed.clone(), live.files.clone());
-            let watch = move || watch_files(&flag, &files);
-            thread::Builder::new()
-                .name("watch".to_owned())
-                .spawn(watch)
-                .map_err(|error| Failure::Other(format!("--watch: {error}")))?;
-            live.changed = Some(changed);
+            live.watch(Arc::new(AtomicBool::new(false)))?;
         }
         live.state = Some(state);
         Ok(live)
+    }
+
+    /// Opens a page with a panel, whose changes set `changed`, as changes of files do.
+    ///
+    /// # Errors
+    /// No server.
+    pub fn with_panel(panel: Arc<dyn Panel>, changed: &Arc<AtomicBool>) -> Result<Self, Failure> {
+        let mut live = Self { state: None, url: None, tev: None, changed: None, files: FileLog::default() };
+        let state = Arc::new(LiveState::new(&Display::default()));
+        live.serve(&state, Some(panel))?;
+        live.watch(changed.clone())?;
+        live.state = Some(state);
+        Ok(live)
+    }
+
+    fn serve(&mut self, state: &Arc<LiveState>, panel: Option<Arc<dyn Panel>>) -> Result<(), Failure> {
+        let failed = |error| Failure::Other(format!("the page cannot be served: {error}"));
+        let server = Server::start(state.clone(), panel).map_err(failed)?;
+        terminal::note(&format!("the picture is shown at {}", server.url));
+        browser::open(&server.url);
+        self.url = Some(server.url);
+        Ok(())
+    }
+
+    fn watch(&mut self, changed: Arc<AtomicBool>) -> Result<(), Failure> {
+        let (flag, files) = (changed.clone(), self.files.clone());
+        let watch = move || watch_files(&flag, &files);
+        let failed = |error| Failure::Other(format!("files cannot be watched: {error}"));
+        thread::Builder::new().name("watch".to_owned()).spawn(watch).map_err(failed)?;
+        self.changed = Some(changed);
+        Ok(())
     }
 
     /// True if it is shown anywhere.
@@ -135,7 +160,7 @@ impl Live {
     /// Waits until a file changes, or until Ctrl-C.
     pub fn wait_for_change(&self) {
         while !interrupt::requested() && !self.restarts() {
-            thread::sleep(LOOK_INTERVAL);
+            thread::sleep(WAKING);
         }
     }
 

@@ -2,7 +2,7 @@
 //! the other.
 
 use std::collections::VecDeque;
-use std::io;
+use std::io::{self, BufRead, BufReader};
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -14,9 +14,10 @@ use gpt::output::{PictureFile, PictureFormat, PictureSpec};
 use serde::Serialize;
 
 use super::live_state::{LivePicture, LiveState, Status, View};
-use super::request::{AccessCheck, Request, answer};
+use super::panel::{Panel, Reply};
+use super::request::{AccessCheck, Refusal, Request, answer};
 
-/// The page, all in one file.
+/// The page, all in one file, but for a panel.
 const PAGE: &str = concat!(
     include_str!("page/head.html"),
     "<style>\n",
@@ -43,17 +44,17 @@ pub struct Server {
 }
 
 impl Server {
-    /// Begins to answer, at a port that the system chooses.
+    /// Begins to answer, at a port that the system chooses. The page has a panel if there is one.
     ///
     /// # Errors
     /// No port, or no thread.
-    pub fn start(state: Arc<LiveState>) -> io::Result<Self> {
+    pub fn start(state: Arc<LiveState>, panel: Option<Arc<dyn Panel>>) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let port = listener.local_addr()?.port();
         let secret = secret()?;
         let url = format!("http://127.0.0.1:{port}/{secret}/");
         let access = Arc::new(AccessCheck::new(secret, port));
-        thread::Builder::new().name("view".to_owned()).spawn(move || serve(&listener, &access, &state))?;
+        thread::Builder::new().name("view".to_owned()).spawn(move || serve(&listener, &access, &Arc::new(Shown { state, panel }))?;
         Ok(Self { url })
     }
 }
@@ -68,7 +69,13 @@ fn secret() -> io::Result<String> {
     Ok(format!("{:032x}", u128::from_ne_bytes(bytes)))
 }
 
-fn serve(listener: &TcpListener, access: &Arc<AccessCheck>, state: &Arc<LiveState>) {
+/// All that the page shows.
+struct Shown {
+    state: Arc<LiveState>,
+    panel: Option<Arc<dyn Panel>>,
+}
+
+fn serve(listener: &TcpListener, access: &Arc<AccessCheck>, shown: &Arc<Shown>) {
     let (open, strangers) = (Arc::new(AtomicUsize::new(0)), Arc::new(Strangers::default()));
     loop {
         let Ok((connection, _)) = listener.accept() else {
@@ -78,10 +85,10 @@ fn serve(listener: &TcpListener, access: &Arc<AccessCheck>, state: &Arc<LiveStat
         };
         let connection = Arc::new(connection);
         let stranger = Strangers::enter(&strangers, &connection);
-        let (access, state, open) = (access.clone(), state.clone(), open.clone());
+        let (access, shown, open) = (access.clone(), shown.clone(), open.clone());
         // Without a thread the connection is closed, and the browser asks again. A browser that goes away is no failure.
         let _ = thread::Builder::new().name("view request".to_owned()).spawn(move || {
-            let _ = converse(&connection, stranger, (&access, &state, &open));
+            let _ = converse(&connection, stranger, (&access, &shown, &open));
         });
     }
 }
@@ -156,11 +163,12 @@ impl io::Read for Until<'_> {
 fn converse(
     connection: &TcpStream,
     stranger: Stranger,
-    (access, state, open): (&AccessCheck, &LiveState, &AtomicUsize),
+    (access, shown, open): (&AccessCheck, &Shown, &AtomicUsize),
 ) -> io::Result<()> {
     connection.set_nodelay(true)?;
     connection.set_write_timeout(Some(PATIENCE))?;
-    let request = match Request::read(Until(connection, Instant::now() + PATIENCE)) {
+    let mut reader = BufReader::new(Until(connection, Instant::now() + PATIENCE));
+    let request = match Request::read(&mut reader) {
         Ok(request) => request,
         Err(error) if error.kind() == io::ErrorKind::InvalidData => {
             return answer(connection, "400 Bad Request", TEXT, b"This is no request.\n", true);
@@ -169,6 +177,7 @@ fn converse(
     };
     let with_body = request.method != "HEAD";
     let Some(path) = access.admit(&request) else {
+        request.skip_body(&mut reader);
         let words = b"The address that gpt printed has a secret in it, and this one has not.\n";
         return answer(connection, "403 Forbidden", TEXT, words, with_body);
     };
@@ -176,11 +185,20 @@ fn converse(
     let Some(_counted) = Counted::begin(open) else {
         return answer(connection, "503 Service Unavailable", TEXT, b"There are too many requests at a time.\n", with_body);
     };
-    if request.method != "GET" && request.method != "HEAD" {
-        return answer(connection, "405 Method Not Allowed", TEXT, b"There is only something to get.\n", true);
+    let state = &shown.state;
+    match (request.method.as_str(), &shown.panel) {
+        ("GET" | "HEAD", _) => {}
+        ("POST", Some(panel)) => return change(connection, &mut reader, (&request, path), panel.as_ref()),
+        _ => {
+            request.skip_body(&mut reader);
+            return answer(connection, "405 Method Not Allowed", TEXT, b"There is only something to get.\n", true);
+        }
     }
     match path {
-        "" => answer(connection, "200 OK", "text/html; charset=utf-8", PAGE.as_bytes(), with_body),
+        "" => {
+            let page = PAGE.to_owned() + &shown.panel.as_ref().map(|panel| panel.parts()).unwrap_or_default();
+            answer(connection, "200 OK", "text/html; charset=utf-8", page.as_bytes(), with_body)
+        }
         "state" => {
             let after = request.parameter("after").and_then(|after| after.parse().ok()).unwrap_or(0);
             let view = state.view_after(after, if after > 0 { LONGEST_WAIT } else { Duration::ZERO }, true);
@@ -201,8 +219,28 @@ fn converse(
             }
             answer(connection, "200 OK", "image/x-exr", &exr(&view.picture)?, with_body)
         }
-        _ => answer(connection, "404 Not Found", TEXT, b"There is no such page.\n", with_body),
+        _ => match shown.panel.as_ref().and_then(|panel| panel.get(path)) {
+            Some(Reply { status, kind, body }) => answer(connection, status, kind, &body, with_body),
+            None => answer(connection, "404 Not Found", TEXT, b"There is no such page.\n", with_body),
+        },
     }
+}
+
+/// Has the panel answer a request that changes something, if the page itself made it.
+fn change(
+    connection: &TcpStream,
+    reader: &mut impl BufRead,
+    (request, path): (&Request, &str),
+    panel: &dyn Panel,
+) -> io::Result<()> {
+    let reply = match request.body_of_own_page(reader) {
+        Ok(body) => panel.post(path, &body?).unwrap_or_else(|| Reply::refused("404 Not Found", "There is no such page.\n".to_owned())),
+        Err(Refusal { status, why }) => {
+            request.skip_body(reader);
+            Reply::refused(status, why.to_owned())
+        }
+    };
+    answer(connection, reply.status, reply.kind, &reply.body, true)
 }
 
 const TEXT: &str = "text/plain; charset=utf-8";

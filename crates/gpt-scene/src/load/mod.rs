@@ -64,5 +64,5 @@ pub use presets::preset_names;
 pub use printable::printable;
 pub use reading::ReadingProgress;
 pub use scene_file::load_toml_str;
-pub use source::{SceneSource, load, load_with};
+pub use source::{SceneSource, load, load_file_text, load_with};
 pub use view::{ModelView, Up};

@@ -143,6 +143,11 @@ pub fn load(written: Option<&str>) -> Result<Scene, SceneError> {
     load_with(written.map(OsStr::new), &LoadOptions::default())
 }
 
+/// Reads a scene file whose text is this one, whatever is written there: paths in the text are relative to its folder, and errors call it by this path.
+pub fn load_file_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Scene, SceneError> {
+    scene_file::load_toml(text, &show(path), path.parent().unwrap_or(Path::new("")), options.access()?)
+}
+
 /// [`load`], with `-` for the standard input.
 pub fn load_with(written: Option<&OsStr>, options: &LoadOptions) -> Result<Scene, SceneError> {
     SceneSource::parse(written)?.load(options)
