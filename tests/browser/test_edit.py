@@ -70,7 +70,7 @@ class Edit(PageTest):
         )
 
     def control(self, label):
-        return self.page.locator(f'#panel [aria-label="{label}"]')
+        return self.page.locator(f'#panel :is(button, input, select)[aria-label="{label}"]')
 
     def fill(self, label, value):
         """Types into a field as somebody who leaves it then."""
@@ -222,12 +222,12 @@ class Edit(PageTest):
         self.wait("() => { const at = 5 * (32 * 96 + 48); return picture.values[at] < 0.24 && picture.values[at] / picture.values[at + 1] < 0.51; }")
         self.page.locator("#form details").last.evaluate("(details) => { details.open = true; }")
         self.control("set two_sided").click()
-        self.control("two_sided").locator("input").click()
+        self.control("two_sided").click()
         self.wait("() => at(['material', 0, 'two_sided']) === true")
         self.control("material steel").click()
         self.page.locator("#form details").last.evaluate("(details) => { details.open = true; }")
         self.control("set distribution").click()
-        self.page.locator('#panel select[aria-label="distribution"]').select_option("beckmann")
+        self.control("distribution").select_option("beckmann")
         self.assertEqual(self.materials()[1]["distribution"], "beckmann")
 
     def test_saving_keeps_all_else_and_never_overwrites_by_surprise(self):
@@ -309,7 +309,7 @@ class Edit(PageTest):
             except Exception:
                 if device == "cpu":
                     raise
-                print("no graphics device; its latency is not measured", flush=True)
+                print("no graphics device was ready in a minute; its latency is not measured", flush=True)
                 return
             times = []
             for value in (0.3, 0.6, 0.4, 0.7, 0.5):

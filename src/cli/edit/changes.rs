@@ -48,8 +48,11 @@ const NO_VALUE: Refused = Refused("that is no value of a scene file");
 /// # Errors
 /// A place that is not there or must not be changed, a value that TOML does not have. The document may be changed in part then.
 pub fn apply(document: &mut DocumentMut, change: &Change) -> Result<(), Refused> {
-    let (Change::Set { at, .. } | Change::Unset { at } | Change::Insert { at, .. } | Change::Move { at, .. } | Change::Wrap { at }) =
-        change;
+    let (Change::Set { at, .. }
+    | Change::Unset { at }
+    | Change::Insert { at, .. }
+    | Change::Move { at, .. }
+    | Change::Wrap { at }) = change;
     let (Some(Step::Key(list)), Some((last, parents))) = (at.first(), at.split_last()) else { return Err(NO_PLACE) };
     if !LISTS.contains(&list.as_str()) || parents.is_empty() {
         return Err(NO_PLACE);
@@ -227,7 +230,10 @@ fn swap_values(array: &mut Array, index: usize) {
     let (Some(a), Some(b)) = (array.get(index).cloned(), array.get(index + 1).cloned()) else { return };
     let spaces = [a.decor().clone(), b.decor().clone()];
     let is_blank = |decor: &Decor| {
-        [decor.prefix(), decor.suffix()].into_iter().flatten().all(|part| part.as_str().is_some_and(|text| text.trim().is_empty()))
+        [decor.prefix(), decor.suffix()]
+            .into_iter()
+            .flatten()
+            .all(|part| part.as_str().is_some_and(|text| text.trim().is_empty()))
     };
     let stay = spaces.iter().all(is_blank);
     for (place, (mut value, space)) in [index, index + 1].into_iter().zip([b, a].into_iter().zip(spaces)) {

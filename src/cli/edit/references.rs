@@ -26,9 +26,8 @@ mod tests {
 
     /// Notes the keys whose values are free texts, or lists of them.
     fn free_texts(node: &Value, definitions: &Value, seen: &mut BTreeSet<String>, keys: &mut BTreeSet<String>) {
-        let is_free = |node: &Value| {
-            node["type"] == "string" && ["const", "enum", "pattern"].iter().all(|limit| node.get(limit).is_none())
-        };
+        let is_free =
+            |node: &Value| node["type"] == "string" && ["const", "enum", "pattern"].iter().all(|limit| node.get(limit).is_none());
         let resolved = |node: &Value| {
             let name = node["$ref"].as_str().and_then(|reference| reference.rsplit('/').next());
             name.map_or_else(|| node.clone(), |name| definitions[name].clone())

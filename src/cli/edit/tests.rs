@@ -119,9 +119,11 @@ fn entries_are_added_removed_and_moved() {
     assert_eq!(none, format!("[film]\nsize = [4, 4]\n\n[[material]]\n{words}"));
 
     let moved = changed_by(TABLES, json!([{ "do": "move", "at": ["material", 0], "to": 1 }]));
-    let names = |text: &str| model(text)["material"].as_array().expect("a list").iter().map(|m| m["name"].clone()).collect::<Vec<_>>();
+    let names =
+        |text: &str| model(text)["material"].as_array().expect("a list").iter().map(|m| m["name"].clone()).collect::<Vec<_>>();
     assert_eq!(names(&moved), ["coat", "clay", "gold"]);
-    for kept in ["# The first one.\n[[material]]\nname = \"clay\" # earthen", "# The second one.\n[[material]]\nname = \"coat\""] {
+    for kept in ["# The first one.\n[[material]]\nname = \"clay\" # earthen", "# The second one.\n[[material]]\nname = \"coat\""]
+    {
         assert!(moved.contains(kept), "{moved}");
     }
     assert!(moved.find("[[shape]]") > moved.find("coat\"\ntype"), "the shape stays between them: {moved}");
@@ -168,7 +170,8 @@ fn a_material_is_wrapped_in_a_blend_wherever_it_is_named() {
 fn a_name_is_wrapped_where_it_stands_alone() {
     let wrapped = changed_by(TABLES, json!([{ "do": "wrap", "at": ["material", 1, "materials", 0] }]));
     let scene = model(&wrapped);
-    let names: Vec<_> = scene["material"].as_array().expect("a list").iter().map(|m| m["name"].as_str().expect("a name")).collect();
+    let names: Vec<_> =
+        scene["material"].as_array().expect("a list").iter().map(|m| m["name"].as_str().expect("a name")).collect();
     assert_eq!(names, ["clay", "clay 1", "clay 2", "coat", "gold"], "{wrapped}");
     assert_eq!(scene["material"][2]["materials"], json!(["clay", "clay 1"]));
     assert_eq!(scene["material"][3]["materials"], json!(["clay 2", "gold"]));

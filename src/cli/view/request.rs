@@ -258,7 +258,9 @@ mod tests {
             headers[index].1 = value;
             assert_eq!(post(&headers), Err(status), "{value}");
         }
-        for (index, status) in [(0, "403 Forbidden"), (1, "403 Forbidden"), (2, "415 Unsupported Media Type"), (3, "411 Length Required")] {
+        for (index, status) in
+            [(0, "403 Forbidden"), (1, "403 Forbidden"), (2, "415 Unsupported Media Type"), (3, "411 Length Required")]
+        {
             let mut headers = good.to_vec();
             headers.remove(index);
             assert_eq!(post(&headers), Err(status));

@@ -54,7 +54,8 @@ impl Server {
         let secret = secret()?;
         let url = format!("http://127.0.0.1:{port}/{secret}/");
         let access = Arc::new(AccessCheck::new(secret, port));
-        thread::Builder::new().name("view".to_owned()).spawn(move || serve(&listener, &access, &Arc::new(Shown { state, panel }))?;
+        let shown = Arc::new(Shown { state, panel });
+        thread::Builder::new().name("view".to_owned()).spawn(move || serve(&listener, &access, &shown))?;
         Ok(Self { url })
     }
 }
@@ -234,7 +235,9 @@ fn change(
     panel: &dyn Panel,
 ) -> io::Result<()> {
     let reply = match request.body_of_own_page(reader) {
-        Ok(body) => panel.post(path, &body?).unwrap_or_else(|| Reply::refused("404 Not Found", "There is no such page.\n".to_owned())),
+        Ok(body) => {
+            panel.post(path, &body?).unwrap_or_else(|| Reply::refused("404 Not Found", "There is no such page.\n".to_owned()))
+        }
         Err(Refusal { status, why }) => {
             request.skip_body(reader);
             Reply::refused(status, why.to_owned())
