@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     /// Texts that name no entry.
-    const OTHER_TEXTS: [&str; 2] = ["name", "file"];
+    const OTHER_TEXTS: [&str; 3] = ["name", "file", "grid"];
 
     /// Notes the keys whose values are free texts, or lists of them.
     fn free_texts(node: &Value, definitions: &Value, seen: &mut BTreeSet<String>, keys: &mut BTreeSet<String>) {
