@@ -76,6 +76,9 @@ impl Converter<'_> {
         Ok(LightEntry::Point(point::Keys {
             position: vector(entity, position)?,
             intensity: rgb(entity, intensity)?,
+            profile: None,
+            direction: None,
+            front: None,
             keyframes: None,
             interpolation: None,
             node: None,
@@ -131,6 +134,8 @@ impl Converter<'_> {
             curve: None,
             up: None,
             texture: None,
+            profile: None,
+            front: None,
             keyframes: None,
             interpolation: None,
             node: None,
