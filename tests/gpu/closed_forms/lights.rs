@@ -69,7 +69,16 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
     ] {
         let mut scene = over_a_floor(4);
         let position = to_light * 2.0;
-        let spot = SpotLight { position, direction: axis, intensity, angle_degrees, falloff_degrees, curve, picture: None };
+        let spot = SpotLight {
+            position,
+            direction: axis,
+            intensity,
+            angle_degrees,
+            falloff_degrees,
+            curve,
+            picture: None,
+            profile: None,
+        };
         scene.lights.push(Light::Spot(spot));
         let expected = intensity * share * cosine(30.0) / 4.0 * ALBEDO / PI;
         push(cases, &format!("spot light, {name}"), &scene, expected, &WITH_LIGHT_SAMPLING);
@@ -97,6 +106,7 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
             falloff_degrees,
             curve,
             picture,
+            profile: None,
         }));
         let expected = texel * intensity * cosine(30.0) / 4.0 * ALBEDO / PI;
         push(cases, &format!("picture of a spot light, {side}"), &scene, expected, &WITH_LIGHT_SAMPLING);
