@@ -74,6 +74,21 @@ pub fn read(bytes: &[u8]) -> Result<Photometry, Mistake> {
     Ok(Photometry { profile, notes })
 }
 
+/// The file of a profile, by the standard of 2002.
+pub fn written(profile: &LightProfile) -> String {
+    let numbers = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+    let [vertical, horizontal] = [profile.vertical(), profile.horizontal()];
+    let planes: Vec<String> = profile.candela().chunks(vertical.len()).map(numbers).collect();
+    format!(
+        "IESNA:LM-63-2002\n[TEST] none\n[ISSUEDATE] none\n[MANUFAC] none\nTILT=NONE\n1 -1 1 {} {} 1 2 0 0 0\n1 1 0\n{}\n{}\n{}\n",
+        vertical.len(),
+        horizontal.len(),
+        numbers(vertical),
+        numbers(horizontal),
+        planes.join("\n")
+    )
+}
+
 /// Numbers, and what they say of the light.
 fn read_table(numbers: &mut Numbers<'_>, year: u32) -> Result<LightProfile, Mistake> {
     numbers.number("the number of lamps")?;

@@ -31,7 +31,7 @@ mod gltf;
 mod image_file;
 mod import;
 mod import_file;
-mod lm_63;
+pub(crate) mod lm_63;
 mod memory;
 mod mends;
 mod mitsuba;

@@ -76,6 +76,13 @@ fn tilt_is_read_past_and_said() {
 }
 
 #[test]
+fn what_is_written_is_read_again() {
+    let read = profile(&OFFICE.replace("10 20", "0.1 1e-3"));
+    assert_eq!(profile(&written(&read)), read);
+    assert_ne!(profile(&written(&read)), profile(OFFICE), "the control");
+}
+
+#[test]
 fn mistakes_have_their_line() {
     for (from, to, line, words) in [
         ("TILT=NONE", "", 12, "no line `TILT"),
