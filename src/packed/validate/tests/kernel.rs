@@ -392,7 +392,7 @@ impl Kernel<'_> {
         let candela = rows.wrapping_add(planes);
         (0..candela.wrapping_add(rows.wrapping_mul(planes)))
             .try_for_each(|word| self.texel(first.wrapping_add(word)).map(drop))?;
-        // Of no plane, the first is read.
+        // Kernels read the first plane even of none.
         (0..rows).try_for_each(|row| self.texel(first.wrapping_add(candela).wrapping_add(row)).map(drop))
     }
 

@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::model::amounts;
 use crate::math::Frame;
-use crate::scene::check::Check;
+use crate::scene::check::{Check, is_amount};
 use crate::spectrum::Spectrum;
 
 /// Most angles of either kind in a table as it is written.
@@ -274,7 +273,8 @@ impl AimedProfile {
         if !self.front.is_finite() || self.front == DVec3::ZERO {
             return Err("the side of its profile's horizontal angle 0 must be a direction".to_owned());
         }
-        amounts(&[intensity * self.profile.candela.iter().copied().fold(0.0, f64::max)])
+        let brightest = intensity * self.profile.candela.iter().copied().fold(0.0, f64::max);
+        if is_amount(brightest) { Ok(()) } else { Err("its light times the candela of its profile is too large".to_owned()) }
     }
 }
 

@@ -84,6 +84,11 @@ impl SpotLight {
         }
     }
 
+    /// Some of its profile's light lies within its cone.
+    pub fn shines(&self) -> bool {
+        self.solid_angle() > 0.0
+    }
+
     /// The light without its profile, and as strong.
     pub fn without_profile(&self) -> Self {
         let plain = Self { profile: None, ..self.clone() };
@@ -134,7 +139,7 @@ impl SceneLight for SpotLight {
         if let Some(aimed) = &self.profile {
             placed(aimed.nadir == self.direction)?;
             aimed.check(self.intensity)?;
-            if self.solid_angle() == 0.0 {
+            if !self.shines() {
                 return Err(format!("its profile gives no light within {angle} degrees of its direction"));
             }
         }

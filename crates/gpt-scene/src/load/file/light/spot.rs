@@ -87,7 +87,7 @@ impl LightKeys for Keys {
         }
         let written = self.profile.as_ref();
         let profile = written.map(|written| resolver.aimed_profile(written, direction, self.front.as_ref())).transpose()?;
-        Ok(SpotLight {
+        let light = SpotLight {
             position: vector(self.position),
             direction,
             intensity: self.intensity.0,
@@ -100,7 +100,13 @@ impl LightKeys for Keys {
             },
             picture,
             profile,
-        })
+        };
+        match written.filter(|_| !light.shines()) {
+            Some(written) => {
+                Err(resolver.error(&written.place, format!("its profile gives no light within {angle} degrees of `direction`")))
+            }
+            None => Ok(light),
+        }
     }
 
     fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {

@@ -15,7 +15,7 @@ fn tables_unfold_by_their_symmetry() {
     assert_eq!(quarter.horizontal(), [0.0, 20.0, 90.0, 160.0, 180.0, 200.0, 270.0, 340.0, 360.0]);
     let half = uneven(&vertical, &[0.0, 20.0, 100.0, 180.0]);
     assert_eq!(half.horizontal(), [0.0, 20.0, 100.0, 180.0, 260.0, 340.0, 360.0]);
-    // As LM-63-1995 has it: alike to both sides of the plane through 90 and 270.
+    // Alike to both sides of the plane through 90 and 270, by LM-63-1995.
     let side = uneven(&vertical, &[90.0, 150.0, 250.0, 270.0]);
     assert_eq!(side.horizontal(), [0.0, 30.0, 90.0, 150.0, 250.0, 270.0, 290.0, 360.0]);
     let whole = uneven(&vertical, &[0.0, 20.0, 100.0, 180.0, 260.0, 360.0]);
@@ -30,7 +30,7 @@ fn tables_unfold_by_their_symmetry() {
     }
     // The controls: what has less symmetry differs.
     assert!([by_quarters, by_halves, by_sides].into_iter().all(|alike| alike < 8), "{by_quarters} {by_halves} {by_sides}");
-    // Where the table of 90 to 270 has no plane at 180, it is interpolated there, and at 0.
+    // A table of 90 to 270 without a plane at 180 is interpolated there, and at 0.
     assert!(same(at(&side, 0.0), at(&side, 180.0)) && same(at(&side, 180.0), 0.7 * at(&side, 150.0) + 0.3 * at(&side, 250.0)));
 }
 
@@ -59,7 +59,7 @@ fn between_angles_it_is_bilinear_and_past_them_dark() {
 fn integrals_over_the_sphere_are_right() {
     let even = LightProfile::new(vec![0.0, 180.0], vec![0.0], vec![3.0; 2]).unwrap();
     assert!((even.integral(|_| 1.0, &[]) / (12.0 * PI) - 1.0).abs() < 1e-9);
-    // Of those within 60 degrees, a quarter.
+    // A quarter of it lies within 60 degrees.
     let within = even.integral(|angle| if angle < 60.0 { 1.0 } else { 0.0 }, &[60.0]);
     assert!((within / (3.0 * PI) - 1.0).abs() < 1e-8, "{within}");
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
