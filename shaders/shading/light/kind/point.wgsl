@@ -13,14 +13,13 @@ fn sample_point_light(light: u32, reference: vec3<f32>, pmf: f32) -> LightSample
         return no_light();
     }
     let distance = sqrt(distance2);
-    let wi = to_light / distance;
     let word4 = light_word(light, 4u);
     var intensity = word4.xyz;
 #if LIGHT_PROFILES
     let profile = bitcast<u32>(word4.w);
     if profile != NONE {
-        intensity *= profile_candela(profile, wi);
+        intensity *= profile_candela(profile, to_light / distance);
     }
 #endif
-    return LightSample(wi, distance * SHADOW_SHORTENING, intensity / (distance2 * pmf), -1.0);
+    return LightSample(to_light / distance, distance * SHADOW_SHORTENING, intensity / (distance2 * pmf), -1.0);
 }
