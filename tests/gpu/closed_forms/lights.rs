@@ -135,18 +135,20 @@ fn profiles(cases: &mut Vec<Case>, to_light: DVec3, intensity: Spectrum) {
     };
     let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
     let cosines: Vec<f64> = degrees.iter().map(|angle| angle.to_radians().cos()).collect();
-    // The floor's point lies on the side of -X, which is another side of the lamp as its front is turned.
+    // The floor's point lies on the side of -X, so many degrees counter-clockwise of the lamp's front, seen from above. No angle of a table is there:
+    // a pixel sees both sides of it.
+    let turned = |degrees: f64| DVec3::new(-degrees.to_radians().cos(), 0.0, -degrees.to_radians().sin());
     let sides = profile(&[0.0, 60.0], &[0.0, 90.0, 180.0, 270.0, 360.0], &[1.0, 1.0, 1.0, 3.0, 1.0, 5.0, 1.0, 7.0, 1.0, 1.0]);
     let cosine = 30_f64.to_radians().cos();
     for (name, profile, front, candela) in [
         ("even", profile(&[0.0, 180.0], &[0.0], &[2.0, 2.0]), DVec3::X, 2.0),
         ("of a cosine", profile(&degrees, &[0.0], &cosines), DVec3::X, cosine),
         ("between two angles", profile(&[0.0, 20.0, 60.0], &[0.0], &[9.0, 4.0, 8.0]), DVec3::X, 5.0),
-        ("in front", sides.clone(), DVec3::NEG_X, 1.0),
-        ("at 90 degrees", sides.clone(), DVec3::NEG_Z, 2.0),
-        ("behind", sides.clone(), DVec3::X, 3.0),
-        ("at 270 degrees", sides.clone(), DVec3::Z, 4.0),
-        ("between two sides", sides, DVec3::new(-1.0, 0.0, -1.0), 1.5),
+        ("20 degrees past its front", sides.clone(), turned(20.0), 1.0 + 2.0 / 9.0),
+        ("45 degrees past its front", sides.clone(), turned(45.0), 1.5),
+        ("110 degrees past its front", sides.clone(), turned(110.0), 2.0 + 2.0 / 9.0),
+        ("200 degrees past its front", sides.clone(), turned(200.0), 3.0 + 2.0 / 9.0),
+        ("290 degrees past its front", sides, turned(290.0), 4.0 - 2.0 / 3.0),
     ] {
         let mut scene = over_a_floor(4);
         let position = to_light * 2.0;
