@@ -118,7 +118,11 @@ pub fn collect(
         LightSource::Surface(number) => Some(surface_lights[number]),
         LightSource::Delta(number) => {
             let light = &scene.lights[number];
-            Some(PackedLight::delta(delta_kind(light)?, &light.delta()?, projected_textures[number]))
+            let mut parameters = light.delta()?;
+            if !scene.light_groups.shows(scene.light_groups.of_light(number)) {
+                parameters.color = Spectrum::BLACK;
+            }
+            Some(PackedLight::delta(delta_kind(light)?, &parameters, projected_textures[number]))
         }
         LightSource::Environment => Some(PackedLight::at(DVec3::ZERO, Spectrum::BLACK).of_kind(LightKind::Environment)),
         LightSource::Portal(number) => portal_light(&world.portals[number]),

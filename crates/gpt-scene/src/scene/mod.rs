@@ -19,6 +19,7 @@ mod import_report;
 mod instance;
 pub mod light;
 mod light_at;
+pub mod light_groups;
 pub mod material;
 pub mod media;
 pub mod medium;
@@ -55,6 +56,7 @@ pub use light::{
     DirectionalLight, Environment, EnvironmentRadiance, FalloffCurve, Light, LightParameters, LightStrength, MapRows,
     OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
+pub use light_groups::{LightGroupId, LightGroups};
 pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, LayerModel, LayerStack, LobeKind,
     LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets,

@@ -43,7 +43,7 @@ impl Importer<'_> {
         let (direction, strength) = (place.at(Exactly::of(direction.to_array())?), Rgb::of(colour)?);
         let entry = match light.r#type.as_str() {
             "point" => {
-                LightEntry::Point(point::Keys { position, intensity: strength, keyframes: None, interpolation: None, node: None })
+                LightEntry::Point(point::Keys { position, intensity: strength, keyframes: None, interpolation: None, node: None, light_group: None })
             }
             "directional" => LightEntry::Directional(directional::Keys {
                 direction,
@@ -51,6 +51,7 @@ impl Importer<'_> {
                 keyframes: None,
                 interpolation: None,
                 node: None,
+                light_group: None,
             }),
             "spot" => {
                 let cone = light.spot.clone().unwrap_or_default();
@@ -81,6 +82,7 @@ impl Importer<'_> {
                     keyframes: None,
                     interpolation: None,
                     node: None,
+                    light_group: None,
                 })
             }
             other => {

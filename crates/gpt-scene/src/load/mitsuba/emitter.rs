@@ -38,6 +38,7 @@ impl Converter<'_> {
                     keyframes: None,
                     interpolation: None,
                     node: None,
+                    light_group: None,
                 })
             }
             "spot" => LightEntry::Spot(self.spot(plugin)?),
@@ -89,6 +90,7 @@ impl Converter<'_> {
                 zenith: rgb(plugin, Spectrum::new(0.03, 0.05, 0.1))?,
                 horizon: rgb(plugin, Spectrum::new(0.09, 0.11, 0.13))?,
                 ground: rgb(plugin, Spectrum::grey(0.02))?,
+                light_group: None,
             };
             self.scene.file.light.push(place.at(LightEntry::Sky(keys)));
         }
@@ -173,6 +175,7 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         })
     }
 
@@ -195,6 +198,7 @@ impl Converter<'_> {
             vfov: plugin.possible(Checked::of(2.0 * (half_width / aspect).atan().to_degrees()))?,
             aspect: Some(plugin.possible(Checked::of(aspect))?),
             texture,
+            light_group: None,
         })
     }
 
@@ -246,6 +250,7 @@ impl Converter<'_> {
             rows: Some(environment::Rows::ToPoles),
             keyframes: None,
             interpolation: None,
+            light_group: None,
         })
     }
 }
@@ -273,6 +278,7 @@ fn sun(plugin: &Plugin, direction: DVec3, irradiance: Spectrum) -> Result<LightE
         keyframes: None,
         interpolation: None,
         node: None,
+        light_group: None,
     }))
 }
 

@@ -79,6 +79,7 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 
@@ -134,6 +135,7 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 
@@ -149,6 +151,7 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 
