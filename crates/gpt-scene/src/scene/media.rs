@@ -56,14 +56,32 @@ impl Filling {
     /// Absorbs and does nothing else.
     fn absorbing(extinction: Spectrum) -> Self {
         let (scattering, emission) = (Spectrum::BLACK, Spectrum::BLACK);
-        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_light_sampled: false, is_dark: false, light_group: 0 }
+        Self {
+            extinction,
+            scattering,
+            emission,
+            phase: Phase::isotropic(),
+            grids: None,
+            is_light_sampled: false,
+            is_dark: false,
+            light_group: 0,
+        }
     }
 
     /// A medium of a scene.
     pub fn of(medium: &Medium) -> Self {
         let Medium { scattering, emission, .. } = *medium;
         let (phase, grids) = (medium.phase.clone(), medium.grids.clone());
-        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_light_sampled: false, is_dark: false, light_group: 0 }
+        Self {
+            extinction: medium.extinction(),
+            scattering,
+            emission,
+            phase,
+            grids,
+            is_light_sampled: false,
+            is_dark: false,
+            light_group: 0,
+        }
     }
 
     /// Attenuation per unit length and density by which places are drawn where light passes and is not scattered.
@@ -101,8 +119,7 @@ impl Media {
     /// The media of a scene: those that its materials enclose, those below surfaces, absorbing bodies of glass, and where there are some, a clear one for all other bodies
     /// that let light in through a boundary: within another body they take its place. A blend has the medium of the first part that is not clear.
     pub fn of(scene: &Scene) -> Self {
-        let of_scene =
-            |id: MediumId| Filling { light_group: scene.light_groups.of_medium(id), ..Filling::of(&scene.media[id]) };
+        let of_scene = |id: MediumId| Filling { light_group: scene.light_groups.of_medium(id), ..Filling::of(&scene.media[id]) };
         let own = |material: &Material| match (&material.kind, material.interior) {
             (_, Some(id)) => Some(of_scene(id)),
             (MaterialKind::Principled(principled), None) if principled.attenuation.is_some() => {

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::animation;
 use super::needed::named_texture;
-use crate::load::file::{write_kind, write_light_group};
 use crate::load::file::writer::{Writer, flag, line, number, text};
+use crate::load::file::{write_kind, write_light_group};
 use crate::scene::{Emission, Material, MaterialId, MaterialKind, Relief};
 
 pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {

@@ -42,9 +42,14 @@ impl Importer<'_> {
         let position = Exactly::of(map.translation.to_array())?;
         let (direction, strength) = (place.at(Exactly::of(direction.to_array())?), Rgb::of(colour)?);
         let entry = match light.r#type.as_str() {
-            "point" => {
-                LightEntry::Point(point::Keys { position, intensity: strength, keyframes: None, interpolation: None, node: None, light_group: None })
-            }
+            "point" => LightEntry::Point(point::Keys {
+                position,
+                intensity: strength,
+                keyframes: None,
+                interpolation: None,
+                node: None,
+                light_group: None,
+            }),
             "directional" => LightEntry::Directional(directional::Keys {
                 direction,
                 irradiance: strength,

@@ -11,7 +11,8 @@ use crate::scene::{BlendWeight, Material, MaterialKind, Relief, Texture, Texture
 
 /// Help where a material without emission names a light group.
 const NO_EMISSION: &str = "this material has no `emission`";
-const OF_PARTS: &str = "this material has no `emission` of its own, and each of those that it is made of names its group by itself";
+const OF_PARTS: &str =
+    "this material has no `emission` of its own, and each of those that it is made of names its group by itself";
 
 impl Resolver<'_> {
     pub(super) fn materials(&mut self, written: &[MaterialEntry]) -> Result<(), SceneError> {
