@@ -16,7 +16,7 @@ use gpt::scene::{
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
-const OF_DEVICES: [&str; 26] = [
+const OF_DEVICES: [&str; 27] = [
     "ATTRIBUTE_CHUNKS",
     "CLAMP",
     "FILM_TEXTURE",
@@ -33,6 +33,7 @@ const OF_DEVICES: [&str; 26] = [
     "LAYER_POSITION",
     "LAYER_SQUARES",
     "NODE_CHUNKS",
+    "OUTSIDE_UNSEEN",
     "PACKETS",
     "PIXEL_LIST",
     "PRIMITIVE_CHUNKS",
