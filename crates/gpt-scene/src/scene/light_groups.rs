@@ -124,11 +124,6 @@ impl LightGroups {
     pub fn show_only(&mut self, group: Option<LightGroupId>) {
         self.shown = group;
     }
-
-    /// Not all light is to be seen.
-    pub fn hides_some(&self) -> bool {
-        self.shown.is_some()
-    }
 }
 
 fn put(groups: &mut BTreeMap<usize, LightGroupId>, place: usize, group: LightGroupId) {
