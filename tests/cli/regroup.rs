@@ -115,7 +115,7 @@ fn mistakes_are_told() {
     place.expect(3, "regroup lamps.toml --group key=2 -o x.exr");
     for (options, word) in [
         ("--clamp 2", "clamp"),
-        ("--adaptive --target-error 0.1", "--adaptive"),
+        ("--adaptive --target-error 0.1 --spp 64", "--adaptive"),
         ("--target-error 0.1 --spp 64", "--target-error"),
         ("--time-limit 5", "--time-limit"),
         ("--target-interval 0.5", "--target-interval"),
@@ -179,4 +179,30 @@ fn a_scene_file_asks_for_groups_and_frames_have_them() {
     let [first, second] = ["frame.0001.exr", "frame.0002.exr"].map(|name| light(name, "key"));
     assert!((second / first - 2.0).abs() < 1e-5 && first > 0.0, "{first} {second}");
     assert_eq!(light("frame.0001.exr", "fill"), light("frame.0002.exr", "fill"));
+}
+
+#[cfg(unix)]
+#[test]
+#[ignore = "slow"]
+fn a_group_that_is_interrupted_goes_on() {
+    let place = place();
+    let render = "render lamps.toml --device cpu --size 64x48 --spp 800 --aov groups -o a.exr";
+    place.expect(0, &format!("{render} -q"));
+    let whole = fs::read(place.path("a.exr")).expect("the picture");
+    fs::remove_file(place.path("a.exr")).expect("it is there");
+    let mut command = place.command(&format!("{render} --checkpoint 0.02"));
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a process");
+    super::checkpoints::wait_for(&place, "a.exr.checkpoint-groups-fill");
+    let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("kill");
+    assert!(sent.success());
+    let output = child.wait_with_output().expect("an end");
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("--resume goes on from it") && !place.path("a.exr").exists(), "{said}");
+    let other = place.expect(3, &format!("{render} --resume --seed 7"));
+    assert!(other.contains("--seed"), "{other}");
+    let said = place.expect(0, &format!("{render} --resume"));
+    assert!(said.contains("going on from a.exr.checkpoint-groups-"), "{said}");
+    assert!(fs::read(place.path("a.exr")).expect("the picture") == whole);
+    assert_eq!(place.files(), ["a.exr", "lamps.toml", "scene.toml"]);
 }

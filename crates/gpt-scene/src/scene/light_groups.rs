@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::material::MaterialId;
 use super::medium::MediumId;
-use super::model::Scene;
 
 /// The group of all light that names none.
 pub const REST: &str = "rest";
@@ -22,7 +21,7 @@ pub type LightGroupId = usize;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LightGroups {
     /// The name of number 1 is the first.
-    names: Vec<String>,
+    pub(super) names: Vec<String>,
     lights: BTreeMap<usize, LightGroupId>,
     materials: BTreeMap<MaterialId, LightGroupId>,
     media: BTreeMap<MediumId, LightGroupId>,
@@ -81,7 +80,7 @@ impl LightGroups {
         self.names.is_empty()
     }
 
-    /// Puts a light, by its place in [`Scene::lights`], into a group.
+    /// Puts a light, by its place in [`crate::scene::Scene::lights`], into a group.
     pub fn put_light(&mut self, light: usize, group: LightGroupId) {
         put(&mut self.lights, light, group);
     }
@@ -131,46 +130,6 @@ fn put(groups: &mut BTreeMap<usize, LightGroupId>, place: usize, group: LightGro
         groups.remove(&place);
     } else {
         groups.insert(place, group);
-    }
-}
-
-impl Scene {
-    /// The names of the groups that the scene's light is in: those that it names, in that order, and [`REST`] where some light names none.
-    pub fn light_group_names(&self) -> Vec<&str> {
-        let groups = &self.light_groups;
-        let of_lights = (0..self.lights.len()).map(|light| groups.of_light(light));
-        let emits = |(id, material): (usize, &super::Material)| material.emission.is_some().then(|| groups.of_material(id));
-        let of_materials = self.materials.iter().enumerate().filter_map(emits);
-        let glows = |(id, medium): (usize, &super::Medium)| (!medium.emission.is_black()).then(|| groups.of_medium(id));
-        let of_media = self.media.iter().enumerate().filter_map(glows);
-        let rest = of_lights.chain(of_materials).chain(of_media).any(|group| group == 0);
-        groups.names.iter().map(String::as_str).chain(rest.then_some(REST)).collect()
-    }
-
-    /// The scene in which light of one group alone is seen, on the same paths. None where nothing has this name.
-    #[must_use]
-    pub fn in_light_of(&self, group: &str) -> Option<Self> {
-        let number = self.light_groups.number(group)?;
-        let mut scene = self.clone();
-        scene.light_groups.show_only(Some(number));
-        Some(scene)
-    }
-
-    /// The light from outside the scene is to be seen.
-    pub fn shows_outside(&self) -> bool {
-        let mut outside = self.lights.iter().enumerate().filter(|(_, light)| light.is_environment());
-        outside.all(|(index, _)| self.light_groups.shows(self.light_groups.of_light(index)))
-    }
-
-    /// The light from outside the scene is all in one group.
-    pub(super) fn check_light_groups(&self) -> Result<(), String> {
-        let mut outside = self.lights.iter().enumerate().filter(|(_, light)| light.is_environment());
-        let of_light = |(index, _)| self.light_groups.of_light(index);
-        let first = outside.next().map(of_light);
-        if outside.map(of_light).any(|group| Some(group) != first) {
-            return Err("light from outside the scene is in one light group".to_owned());
-        }
-        Ok(())
     }
 }
 

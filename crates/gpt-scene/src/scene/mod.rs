@@ -20,6 +20,7 @@ mod instance;
 pub mod light;
 mod light_at;
 pub mod light_groups;
+mod light_of_groups;
 pub mod material;
 pub mod media;
 pub mod medium;
