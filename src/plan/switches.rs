@@ -305,6 +305,7 @@ fn enable_camera_model(switches: &mut Switches, camera: &Camera, is_bent: bool) 
     for &switch in camera.projection.switches() {
         switches.enable(switch, is_bent);
     }
+    switches.enable("CAMERA_INWARD", camera.inward_from > 0.0);
     switches.enable("CAMERA_TILES", camera.tiles() != [1, 1]);
     switches.enable("STEREO", camera.stereo.is_some());
     let eyes = camera.projection.model().map(|model| model.eyes());

@@ -189,6 +189,8 @@ const OF_FEATURES: &[Switch] = &[
     // The picture is not flat.
     switch("CAMERA_MODEL").one_of(CAMERA_MODELS).excludes(&["ORTHOGRAPHIC"]),
     // The picture consists of several views.
+    // Rays come from all around back to the camera's position.
+    switch("CAMERA_INWARD").requires(&["FISHEYE"]).excludes(&["STEREO"]),
     switch("CAMERA_TILES"),
     // The camera moves while the shutter is open.
     switch("CAMERA_MOTION"),

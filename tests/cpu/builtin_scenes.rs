@@ -10,8 +10,8 @@ use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
 use gpt::scene::{
-    DistanceSampling, Estimator, Guiding, LayerModel, MaterialKind, MisHeuristic, PhongCosine, PhongHorizon, PhongSampling,
-    PixelSampler, SamplerKind, Scene,
+    DistanceSampling, Estimator, Guiding, LayerModel, MaterialKind, Meter, MeterKind, MisHeuristic, PhongCosine, PhongHorizon,
+    PhongSampling, PixelSampler, SamplerKind, Scene,
 };
 use gpt::shader::switches::SWITCHES;
 
@@ -63,9 +63,10 @@ const OF_SETTINGS: [&str; 11] = [
 ];
 
 /// Switches of cameras whose picture is not flat, or is not one: a scene has one camera.
-const OF_CAMERAS: [&str; 12] = [
+const OF_CAMERAS: [&str; 13] = [
     "BLIND_PIXELS",
     "BROWN_CONRADY",
+    "CAMERA_INWARD",
     "CAMERA_MODEL",
     "CAMERA_TILES",
     "CUBE_MAP",
@@ -78,7 +79,7 @@ const OF_CAMERAS: [&str; 12] = [
     "TURNING_EYES",
 ];
 
-/// A built-in scene with every example of a camera.
+/// A built-in scene with every example of a camera, and as a meter on a sphere sees it.
 fn with_cameras() -> Vec<Scene> {
     let text = load::builtin_text("spheres").expect("it is built in");
     let of_example = |example: &load::file::CameraExample| {
@@ -87,7 +88,10 @@ fn with_cameras() -> Vec<Scene> {
         let text = text.replace("size = [640, 360]", &size).replace("vfov     = 32\n", example.keys);
         load::load_toml_str(&text, "spheres.toml", std::path::Path::new("")).expect(example.name)
     };
-    load::file::CAMERA_EXAMPLES.iter().map(of_example).collect()
+    let on_sphere = MeterKind::IrradianceOfSphere { center: glam::DVec3::ZERO, radius: 0.5 };
+    let meter = Meter { name: "ball".to_owned(), kind: on_sphere, medium: None };
+    let measured = load::load(Some("spheres")).expect("it is built in").seen_by(&meter);
+    load::file::CAMERA_EXAMPLES.iter().map(of_example).chain([measured]).collect()
 }
 
 /// The switches that scenes compile in on a device.
