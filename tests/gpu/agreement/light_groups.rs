@@ -14,8 +14,8 @@ use crate::common::light_groups::{GROUPS, in_groups, lit_by};
 
 const SPP: u32 = 4;
 
-/// Lights of every kind, textured and blended emitters; a sky, glowing grids of a medium, and lamps behind null surfaces.
-const SCENES: [&str; 3] = ["examples", "bonfire", "terrace"];
+/// Glowing grids of a medium; a sky; lights without a surface.
+const SCENES: [&str; 3] = ["bonfire", "terrace", "theatre"];
 
 fn wavefront() -> PlanOptions {
     PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() }
