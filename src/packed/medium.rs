@@ -50,7 +50,7 @@ pub struct PackedMedium {
 }
 
 impl PackedMedium {
-    /// It gives off light, which a render in the light of another group does not see.
+    /// The medium gives off light, which a render in the light of another group does not see.
     fn gives_light(&self) -> bool {
         self.flags & MEDIUM_GIVES_LIGHT != 0
     }

@@ -25,7 +25,7 @@ const KEPT: [Layer; 8] =
 /// Why a picture cannot be regrouped; sentences without the file's name.
 #[derive(Debug, thiserror::Error)]
 pub enum RegroupError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] crate::output::ReadError),
     #[error(

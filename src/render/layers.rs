@@ -126,7 +126,7 @@ pub fn contradiction_of_groups(scene: &Scene, options: &RenderOptions) -> Option
     options.time_limit.and_then(|_| ends_by("--time-limit"))
 }
 
-/// What the header says of the light groups that are among the layers.
+/// Entries of the header about the light groups that are among the layers.
 pub fn notes_of_groups(scene: &Scene) -> Vec<(String, String)> {
     vec![(LIGHT_GROUPS_KEY.to_owned(), scene.light_group_names().join(","))]
 }

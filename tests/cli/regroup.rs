@@ -118,7 +118,7 @@ fn mistakes_are_told() {
         ("--adaptive --target-error 0.1 --spp 64", "--adaptive"),
         ("--target-error 0.1 --spp 64", "--target-error"),
         ("--time-limit 5", "--time-limit"),
-        ("--target-interval 0.5", "--target-interval"),
+        ("--target-interval 0.5 --spp 64", "--target-interval"),
     ] {
         let said = place.expect(2, &format!("render lamps.toml -q --device cpu {options} --aov groups -o x.exr"));
         assert!(said.contains("light groups") && said.contains(word), "{options}: {said}");

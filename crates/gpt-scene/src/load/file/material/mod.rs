@@ -80,7 +80,7 @@ macro_rules! entries {
                 match self { $(Self::$material(keys) => keys.emission(&keys.common(), resolver),)* }
             }
 
-            /// It sends out light by itself, at some frame at least.
+            /// The material sends out light by itself, at some frame at least.
             pub fn gives_light(&self) -> bool {
                 let by_frames = match self { $(Self::$material(keys) => keyframes::states(&**keys, "emission"),)* };
                 by_frames || self.radiance().is_some()
