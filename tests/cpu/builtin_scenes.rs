@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::common::light_groups::{in_groups, lit_by};
 use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
 use gpt::learn::{Effort, settle};
@@ -167,6 +168,10 @@ fn built_in_scenes_use_every_switch() {
     let mut clamped = built_in[0].clone();
     clamped.render.clamp = 1.0;
     anywhere.extend(compiled_in(&[clamped], &hardware, &PlanOptions::default()));
+    // In the light of one of two groups, that from outside is not seen.
+    let grouped = in_groups(load::load(Some("terrace")).expect("it is built in"));
+    let of_groups = ["odd", "even"].map(|group| lit_by(&grouped, group));
+    anywhere.extend(compiled_in(&of_groups, &hardware, &PlanOptions::default()));
     for distance_sampling in [DistanceSampling::Distance, DistanceSampling::Equiangular] {
         let mut mist = load::load(Some("mist")).expect("it is built in");
         mist.render.distance_sampling = distance_sampling;

@@ -27,6 +27,7 @@ mod models;
 mod picture_files;
 mod picture_test;
 mod plan;
+mod profiles;
 mod referee;
 mod samplers;
 mod scene_files;

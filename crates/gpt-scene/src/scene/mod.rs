@@ -54,8 +54,8 @@ pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};
 pub use instance::{Group, Instances, is_singular};
 pub use light::{
-    DirectionalLight, Environment, EnvironmentRadiance, FalloffCurve, Light, LightParameters, LightStrength, MapRows,
-    OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
+    AimedProfile, DirectionalLight, Environment, EnvironmentRadiance, FalloffCurve, Light, LightParameters, LightProfile,
+    LightStrength, MapRows, OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
 pub use light_groups::{LightGroupId, LightGroups};
 pub use material::{

@@ -45,6 +45,9 @@ impl Importer<'_> {
             "point" => LightEntry::Point(point::Keys {
                 position,
                 intensity: strength,
+                profile: None,
+                direction: None,
+                front: None,
                 keyframes: None,
                 interpolation: None,
                 node: None,
@@ -84,6 +87,8 @@ impl Importer<'_> {
                     curve: Some(spot::CurveName::Square),
                     texture: None,
                     up: None,
+                    profile: None,
+                    front: None,
                     keyframes: None,
                     interpolation: None,
                     node: None,

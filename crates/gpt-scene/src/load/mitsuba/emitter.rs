@@ -35,6 +35,9 @@ impl Converter<'_> {
                 LightEntry::Point(point::Keys {
                     position: vector(plugin, position)?,
                     intensity: rgb(plugin, intensity)?,
+                    profile: None,
+                    direction: None,
+                    front: None,
                     keyframes: None,
                     interpolation: None,
                     node: None,
@@ -172,6 +175,8 @@ impl Converter<'_> {
             curve: (beam < cutoff).then_some(spot::CurveName::Linear),
             up: Some(up).filter(|_| texture.is_some()),
             texture,
+            profile: None,
+            front: None,
             keyframes: None,
             interpolation: None,
             node: None,

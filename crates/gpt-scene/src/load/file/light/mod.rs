@@ -4,6 +4,7 @@ pub mod directional;
 pub mod environment;
 mod keys;
 pub mod point;
+pub mod profile;
 pub mod projector;
 pub mod sky;
 pub mod spot;
