@@ -35,6 +35,7 @@ mod reading;
 mod referee;
 #[cfg(test)]
 mod reference_pages;
+mod regroup;
 mod render;
 mod render_summary;
 mod scene_error;
@@ -106,6 +107,7 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments, &typed),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Denoise(arguments) => denoise::run(&arguments),
+        Command::Regroup(arguments) => regroup::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Test(arguments) => test::run(&arguments, &typed),
         Command::Referee(arguments) => referee::run(&arguments),

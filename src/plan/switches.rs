@@ -242,6 +242,7 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     if let Some(switch) = packed.environment.switch.filter(|_| environment) {
         switches.enable(switch, true);
     }
+    switches.enable("OUTSIDE_UNSEEN", environment && !scene.shows_outside());
     switches.enable("ENVIRONMENT_TURNED", environment && packed.environment.is_turned());
     switches.enable("ENVIRONMENT_LIGHT", sampled && has(LightKind::Environment));
     switches.enable("MOVING_LIGHTS", packed.lights.iter().any(PackedLight::moves));

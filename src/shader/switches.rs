@@ -288,6 +288,8 @@ const OF_FEATURES: &[Switch] = &[
     // Null surfaces bound media.
     switch("OPEN_BOUNDARIES").requires(&["MEDIA"]),
     switch("ORTHOGRAPHIC"),
+    // The light of one group is rendered, and that from outside the scene is in another.
+    switch("OUTSIDE_UNSEEN").requires(&["ENVIRONMENT"]).excludes(&["LAYER_OF_SURFACES"]),
     switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
     switch("PERLIN").requires(&["PROCEDURAL_TEXTURES"]),
     // Studies of cosine-power lobes.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::common::light_groups::{in_groups, lit_by};
 use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
 use gpt::learn::{Effort, settle};
@@ -16,7 +17,7 @@ use gpt::scene::{
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
-const OF_DEVICES: [&str; 26] = [
+const OF_DEVICES: [&str; 27] = [
     "ATTRIBUTE_CHUNKS",
     "CLAMP",
     "FILM_TEXTURE",
@@ -33,6 +34,7 @@ const OF_DEVICES: [&str; 26] = [
     "LAYER_POSITION",
     "LAYER_SQUARES",
     "NODE_CHUNKS",
+    "OUTSIDE_UNSEEN",
     "PACKETS",
     "PIXEL_LIST",
     "PRIMITIVE_CHUNKS",
@@ -166,6 +168,10 @@ fn built_in_scenes_use_every_switch() {
     let mut clamped = built_in[0].clone();
     clamped.render.clamp = 1.0;
     anywhere.extend(compiled_in(&[clamped], &hardware, &PlanOptions::default()));
+    // In the light of one of two groups, that from outside is not seen.
+    let grouped = in_groups(load::load(Some("terrace")).expect("it is built in"));
+    let of_groups = ["odd", "even"].map(|group| lit_by(&grouped, group));
+    anywhere.extend(compiled_in(&of_groups, &hardware, &PlanOptions::default()));
     for distance_sampling in [DistanceSampling::Distance, DistanceSampling::Equiangular] {
         let mut mist = load::load(Some("mist")).expect("it is built in");
         mist.render.distance_sampling = distance_sampling;

@@ -19,6 +19,7 @@ mod hierarchy;
 mod imports;
 mod instances;
 mod learn;
+mod light_groups;
 mod light_strategies;
 mod many_parts;
 mod media;

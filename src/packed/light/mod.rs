@@ -133,7 +133,11 @@ pub fn collect(
         LightSource::Delta(number) => {
             let light = &scene.lights[number];
             let profile = profile_numbers.get(&number).copied().unwrap_or(NONE);
-            Some(PackedLight::delta(delta_kind(light)?, &light.delta()?, projected_textures[number], profile))
+            let mut parameters = light.delta()?;
+            if !scene.light_groups.shows(scene.light_groups.of_light(number)) {
+                parameters.color = Spectrum::BLACK;
+            }
+            Some(PackedLight::delta(delta_kind(light)?, &parameters, projected_textures[number], profile))
         }
         LightSource::Environment => Some(PackedLight::at(DVec3::ZERO, Spectrum::BLACK).of_kind(LightKind::Environment)),
         LightSource::Portal(number) => portal_light(&world.portals[number]),

@@ -51,6 +51,7 @@ impl Importer<'_> {
                 keyframes: None,
                 interpolation: None,
                 node: None,
+                light_group: None,
             }),
             "directional" => LightEntry::Directional(directional::Keys {
                 direction,
@@ -58,6 +59,7 @@ impl Importer<'_> {
                 keyframes: None,
                 interpolation: None,
                 node: None,
+                light_group: None,
             }),
             "spot" => {
                 let cone = light.spot.clone().unwrap_or_default();
@@ -90,6 +92,7 @@ impl Importer<'_> {
                     keyframes: None,
                     interpolation: None,
                     node: None,
+                    light_group: None,
                 })
             }
             other => {

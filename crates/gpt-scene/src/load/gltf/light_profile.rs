@@ -53,6 +53,7 @@ impl Importer<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         };
         self.scene.file.light.push(place.at(LightEntry::Point(keys)));
         Ok(())

@@ -88,6 +88,7 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 
@@ -159,6 +160,7 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 
@@ -174,6 +176,7 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 

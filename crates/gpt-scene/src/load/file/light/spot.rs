@@ -9,6 +9,7 @@ use super::profile::{ProfileEntry, write_profile};
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{InterpolationName, SpotKeyEntry, WrittenLightTrack};
+use crate::load::file::light_group::LightGroupName;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
@@ -47,6 +48,8 @@ pub struct Keys {
     pub interpolation: Option<Located<InterpolationName>>,
     /// A `[[node]]` that takes the light along at frames.
     pub node: Option<Located<String>>,
+    /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
+    pub light_group: Option<Located<LightGroupName>>,
 }
 
 /// How a spot light's intensity falls between its angles.
