@@ -117,6 +117,8 @@ pub mod referee;
 #[doc(hidden)]
 pub mod reference;
 #[doc(hidden)]
+pub mod regroup;
+#[doc(hidden)]
 pub mod render;
 #[doc(hidden)]
 pub mod renderer;

@@ -14,7 +14,7 @@ use crate::array::{Array, Numbers};
 pub fn arrays(channels: &[LayerChannel], image: &gpt::Image) -> Result<BTreeMap<String, Array>> {
     let mut layers: BTreeMap<&str, Vec<&LayerSource>> = BTreeMap::new();
     for channel in channels {
-        let layer = channel.name.rsplit_once('.').map_or(channel.name, |(layer, _)| layer);
+        let layer = channel.name.rsplit_once('.').map_or(&*channel.name, |(layer, _)| layer);
         layers.entry(layer).or_default().push(&channel.source);
     }
     layers.into_iter().map(|(name, sources)| Ok((name.to_owned(), array(&sources, image)?))).collect()

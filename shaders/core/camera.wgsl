@@ -134,6 +134,10 @@ fn camera_ray(pixel: u32, sample_in_pass: u32) -> CameraRay {
 #if CAMERA_MODEL
     seen = camera_model_direction(film, tile.number);
     var direction = seen.x * pose.step_x.xyz + seen.y * pose.step_y.xyz - seen.z * pose.forward.xyz;
+    if HAS_CAMERA_INWARD {
+        origin += view.convergence.y * normalize(direction);
+        direction = -direction;
+    }
 #else
     let on_film = pose.corner.xyz + film.x * pose.step_x.xyz + film.y * pose.step_y.xyz;
     var direction = on_film;

@@ -26,6 +26,7 @@ use super::measure::MeasureArguments;
 use super::model_arguments::ModelArguments;
 use super::picture_arguments::{DisplayArguments, ExrArguments};
 use super::referee::RefereeArguments;
+use super::regroup::RegroupArguments;
 use super::setting_flags::SettingFlags;
 use super::settings::EstimateArguments;
 use super::test_arguments::TestArguments;
@@ -54,6 +55,8 @@ pub enum Command {
     Merge(MergeArguments),
     /// Take the noise out of a picture by Open Image Denoise, into a second file, and say what that did to its energy
     Denoise(DenoiseArguments),
+    /// Weigh the light groups of a picture anew, without rendering it again: brighter, darker, in another colour
+    Regroup(RegroupArguments),
     /// Measure how far two pictures are apart; exit code 7 if they differ
     Compare(CompareArguments),
     /// Test whether scenes still render to their golden pictures, noise considered; exit code 7 if one does not

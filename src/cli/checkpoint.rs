@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gpt::film::KernelLayer;
+use gpt::film::{KernelLayer, RenderedLayer};
 use gpt::output::{OutputError, PictureFormat, PictureSpec, is_finished_picture};
 use gpt::render::checkpoint::{Checkpoint, DEFAULT_INTERVAL, Identity, path_beside, path_of_layer, remove_state};
 use gpt::scene::BulkDigest;
@@ -115,7 +115,7 @@ fn begin(
 /// The errors of [`Kept::begin`].
 pub fn of_layer(
     arguments: &CheckpointArguments,
-    (renderer, layer): (&Renderer, KernelLayer),
+    (renderer, layer): (&Renderer, &RenderedLayer),
     outputs: &[(PathBuf, PictureFormat)],
     started: Instant,
     quiet: bool,
@@ -126,18 +126,20 @@ pub fn of_layer(
 }
 
 /// Removes the states of layers: the picture with them is in its place.
-pub fn remove_of_layers(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat)]) {
+pub fn remove_of_layers(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat)], scene: &Scene) {
     if let Some(picture) = kept_picture(arguments, outputs) {
-        KernelLayer::ALL.into_iter().for_each(|layer| remove_state(&path_of_layer(picture, layer)));
+        let groups = scene.light_group_names().into_iter().map(|group| RenderedLayer::LightGroup(group.to_owned()));
+        let layers = KernelLayer::ALL.into_iter().map(RenderedLayer::Kernel).chain(groups);
+        layers.for_each(|layer| remove_state(&path_of_layer(picture, &layer)));
     }
 }
 
 /// Removes the states of a render that was killed after its picture was in place.
-pub fn remove_beside_finished(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat)]) {
+pub fn remove_beside_finished(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat)], scene: &Scene) {
     if let Some(picture) = kept_picture(arguments, outputs) {
         remove_state(&path_beside(picture));
     }
-    remove_of_layers(arguments, outputs);
+    remove_of_layers(arguments, outputs, scene);
 }
 
 impl Kept {

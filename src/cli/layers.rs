@@ -6,7 +6,7 @@ use std::time::Instant;
 use gpt::film::Layer;
 use gpt::output::{ExrCompression, LayerChannel, PictureFormat, PictureSpec};
 use gpt::render::cryptomatte;
-use gpt::render::layers::render_layers;
+use gpt::render::layers::{contradiction_of_groups, notes_of_groups, render_layers};
 use gpt::{RenderOptions, Scene};
 
 use super::arguments::RenderArguments;
@@ -81,6 +81,20 @@ pub fn of_files(arguments: &RenderArguments, scene: &Scene, outputs: &[(PathBuf,
     Ok(wanted)
 }
 
+/// Light groups are among the layers only where they add up to the picture.
+///
+/// # Errors
+/// A usage error where they do not.
+pub fn check_groups(
+    arguments: &RenderArguments,
+    options: &RenderOptions,
+    (scene, wanted): (&Scene, &[Layer]),
+) -> Result<(), Failure> {
+    let asked = if arguments.exr.aov.is_empty() { "[output] of the scene:" } else { "--aov" };
+    let contradiction = wanted.contains(&Layer::Groups).then(|| contradiction_of_groups(scene, options)).flatten();
+    contradiction.map_or(Ok(()), |message| Err(Failure::usage(format!("{asked} groups: {message}"))))
+}
+
 /// Renders these layers. With `--checkpoint`, each has a state of its own.
 ///
 /// # Errors
@@ -107,6 +121,9 @@ pub fn render(
     let Some(channels) = rendered? else {
         return Err(last.filter(|path| path.exists()).map_or(Failure::Interrupted, Failure::InterruptedWithState));
     };
-    let notes = if wanted.contains(&Layer::Cryptomatte) { cryptomatte::notes(scene) } else { Vec::new() };
+    let mut notes = if wanted.contains(&Layer::Cryptomatte) { cryptomatte::notes(scene) } else { Vec::new() };
+    if wanted.contains(&Layer::Groups) {
+        notes.extend(notes_of_groups(scene));
+    }
     Ok(Layers { channels, names: wanted, notes })
 }

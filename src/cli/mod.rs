@@ -36,6 +36,7 @@ mod reading;
 mod referee;
 #[cfg(test)]
 mod reference_pages;
+mod regroup;
 mod render;
 mod render_summary;
 mod scene_error;
@@ -108,6 +109,7 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments, &typed),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Denoise(arguments) => denoise::run(&arguments),
+        Command::Regroup(arguments) => regroup::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Test(arguments) => test::run(&arguments, &typed),
         Command::Referee(arguments) => referee::run(&arguments),

@@ -130,6 +130,7 @@ fn scene(
     checkpoint::check(&arguments.checkpoint, &outputs)?;
     let layers = layers::of_files(arguments, &scene, &outputs)?;
     let options = &intervals::asked_for(arguments, (&mut scene, &layers), options)?;
+    layers::check_groups(arguments, options, (&scene, &layers))?;
     let times = frames.times(&scene.animation)?;
     // All frames draw from lights in the same way, whichever of them are rendered.
     let effort = Effort { pace: Pace::Processor, time_limit: options.time_limit };
@@ -161,7 +162,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
         ..PictureSpec::default()
     };
     if arguments.checkpoint.resume && checkpoint::all_are_finished(outputs, (scene, ready.bulk_digest(scene)), options, &shown) {
-        checkpoint::remove_beside_finished(&arguments.checkpoint, outputs);
+        checkpoint::remove_beside_finished(&arguments.checkpoint, outputs, scene);
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(outputs)));
         }
@@ -194,7 +195,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     let summary = pictures.finish(broke_off);
     if !broke_off && summary.failures.is_empty() {
         kept.remove();
-        checkpoint::remove_of_layers(&arguments.checkpoint, outputs);
+        checkpoint::remove_of_layers(&arguments.checkpoint, outputs, scene);
     }
 
     let mut stats = Stats::new(scene, options, &outcome);

@@ -112,8 +112,10 @@ impl ReferenceRenderer {
     pub fn of_length(scene: &Scene, layer: Option<KernelLayer>, effort: Effort) -> Result<Self, RenderError> {
         let start = Instant::now();
         let Settled { scene, because, depends_on_view, integrator, .. } = learn::settle(scene, effort)?;
+        let mut integrator = integrator.map_or_else(|| Integrator::new(&scene), Ok)?;
+        integrator.hide_other_groups();
         Ok(Self {
-            integrator: integrator.map_or_else(|| Integrator::new(&scene), Ok)?,
+            integrator,
             layer,
             effort,
             because,

@@ -3,7 +3,7 @@
 mod count;
 
 pub use count::{count_in, count_word};
-pub use gpt_scene::layer::{KernelLayer, Layer, PartChannels};
+pub use gpt_scene::layer::{KernelLayer, Layer, PartChannels, RenderedLayer, group_channels};
 
 use crate::spectrum::Spectrum;
 
@@ -132,11 +132,12 @@ mod tests {
     /// No channel of a part is two things.
     #[test]
     fn channels_of_parts_have_names_of_their_own() {
-        let mut names: Vec<&str> = KernelLayer::ALL
-            .map(KernelLayer::part_channels)
-            .iter()
-            .flat_map(|channels| channels.values.iter().chain(channels.remainders).copied().chain([channels.count]))
-            .chain(crate::output::part_channels())
+        let kernels = KernelLayer::ALL.into_iter().map(KernelLayer::part_channels);
+        let group = RenderedLayer::LightGroup("emission".to_owned()).part_channels();
+        let mut names: Vec<String> = kernels
+            .chain([group])
+            .flat_map(|PartChannels { values, remainders, count }| [values, remainders, vec![count]].concat())
+            .chain(crate::output::part_channels().map(str::to_owned))
             .collect();
         let count = names.len();
         names.sort_unstable();

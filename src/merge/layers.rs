@@ -4,7 +4,7 @@ use std::io;
 use std::sync::Arc;
 
 use super::part::{PartHeader, PartPixels};
-use crate::film::{KernelLayer, Layer};
+use crate::film::{KernelLayer, Layer, RenderedLayer};
 use crate::output::{LayerChannel, LayerPicture};
 use crate::render::cryptomatte;
 
@@ -14,7 +14,7 @@ const IN_PICTURE: usize = 3;
 /// Sums over the samples of the pixels of a picture.
 pub struct LayerSums {
     layers: Vec<Layer>,
-    kernels: Vec<(KernelLayer, Vec<LayerPixel>)>,
+    rendered: Vec<(RenderedLayer, Vec<LayerPixel>)>,
     /// Channels that are the same whatever the samples, each with its pixels.
     fixed: Vec<Vec<f32>>,
 }
@@ -31,14 +31,14 @@ impl LayerSums {
     pub fn new(part: &PartHeader, pixels: usize) -> Self {
         Self {
             layers: part.layers.clone(),
-            kernels: part.kernels().map(|kernel| (kernel, vec![LayerPixel::default(); pixels])).collect(),
+            rendered: part.rendered().map(|layer| (layer, vec![LayerPixel::default(); pixels])).collect(),
             fixed: part.fixed_channels().map(|_| vec![0.0; pixels]).collect(),
         }
     }
 
     /// Adds a run of a part's pixels, from its pixel `own` on, at pixel `place` of the picture.
     pub fn add(&mut self, part: &PartPixels, (own, place): (usize, usize), count: usize) {
-        for ((_, sums), channels) in self.kernels.iter_mut().zip(&part.kernels) {
+        for ((_, sums), channels) in self.rendered.iter_mut().zip(&part.rendered) {
             for (pixel, sum) in sums[place..place + count].iter_mut().enumerate() {
                 let (means, samples) = channels.at(own + pixel);
                 for (sum, mean) in sum.sum.iter_mut().zip(means) {
@@ -58,15 +58,18 @@ impl LayerSums {
     /// Errors of temporary files.
     pub fn channels(&self, size: [u32; 2], samples: impl Fn(usize) -> f64) -> io::Result<Vec<LayerChannel>> {
         let mut channels = Vec::new();
-        for (kernel, sums) in &self.kernels {
+        for (layer, sums) in &self.rendered {
             let value = |(pixel, sum): (usize, &LayerPixel)| {
                 let mean = sum.sum.map(|of_channel| if sum.count > 0.0 { (of_channel / sum.count) as f32 } else { 0.0 });
                 let share = |samples: f64| if samples > 0.0 { sum.count as f32 / samples as f32 } else { 0.0 };
                 // Beside the depth stands what share of the samples met a surface.
-                if *kernel == KernelLayer::Depth { [mean[0], share(samples(pixel)), 0.0] } else { mean }
+                if layer.kernel() == Some(KernelLayer::Depth) { [mean[0], share(samples(pixel)), 0.0] } else { mean }
             };
             let picture = written(size, sums.iter().enumerate().map(value))?;
-            for layer in self.layers.iter().filter(|layer| layer.kernel() == Some(*kernel)) {
+            if let RenderedLayer::LightGroup(group) = layer {
+                LayerChannel::add_new(&mut channels, LayerChannel::of_group(group, &picture));
+            }
+            for layer in self.layers.iter().filter(|of_kernel| layer.kernel().is_some() && of_kernel.kernel() == layer.kernel()) {
                 LayerChannel::add_new(&mut channels, LayerChannel::of(*layer, Some(&picture)));
             }
         }

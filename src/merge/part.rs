@@ -8,9 +8,9 @@ use exr::meta::attribute::{AttributeValue, SampleType};
 use exr::prelude::Vec2;
 
 use crate::choice::Choice;
-use crate::film::{KernelLayer, Layer, PartChannels};
+use crate::film::{KernelLayer, Layer, PartChannels, RenderedLayer};
 use crate::input;
-use crate::output::{CROP_KEY, LAYERS_KEY, Provenance, SAMPLE_COUNT, part_channels};
+use crate::output::{CROP_KEY, LAYERS_KEY, LIGHT_GROUPS_KEY, Provenance, SAMPLE_COUNT, part_channels};
 use crate::picture_file::open_exr::{self, DIGEST_KEY, Windows};
 use crate::render::cryptomatte;
 use crate::scene::settings::SETTINGS;
@@ -53,13 +53,13 @@ pub struct PartHeader {
 /// The pixels of a part, row by row, channel by channel.
 pub struct PartPixels {
     channels: Vec<Vec<f32>>,
-    /// In the order of [`PartHeader::kernels`] and of [`PartHeader::fixed_channels`].
-    pub kernels: Vec<KernelChannels>,
+    /// In the order of [`PartHeader::rendered`] and of [`PartHeader::fixed_channels`].
+    pub rendered: Vec<RenderedChannels>,
     pub fixed: Vec<Vec<f32>>,
 }
 
 /// The channels of a layer: means, what rounding to them lost, and how many samples they are over.
-pub struct KernelChannels {
+pub struct RenderedChannels {
     means: Vec<Vec<f32>>,
     remainders: Vec<Vec<f32>>,
     counts: Vec<f32>,
@@ -128,8 +128,12 @@ impl PartHeader {
     }
 
     /// The layers that were rendered for it, each once.
-    pub fn kernels(&self) -> impl Iterator<Item = KernelLayer> {
-        KernelLayer::ALL.into_iter().filter(|kernel| self.layers.iter().any(|layer| layer.kernel() == Some(*kernel)))
+    pub fn rendered(&self) -> impl Iterator<Item = RenderedLayer> {
+        let wanted = |kernel: &KernelLayer| self.layers.iter().any(|layer| layer.kernel() == Some(*kernel));
+        let groups = self.entries.get(LIGHT_GROUPS_KEY).filter(|_| self.layers.contains(&Layer::Groups));
+        let groups = groups.into_iter().flat_map(|list| list.split(','));
+        let kernels = KernelLayer::ALL.into_iter().filter(wanted).map(RenderedLayer::Kernel);
+        kernels.chain(groups.map(|group| RenderedLayer::LightGroup(group.to_owned())))
     }
 
     /// Channels that are the same whatever the samples.
@@ -139,9 +143,9 @@ impl PartHeader {
         ids.into_iter().flatten().chain(mattes.into_iter().flatten())
     }
 
-    /// The header's entries about mattes.
+    /// The header's entries about mattes and light groups.
     pub fn notes(&self) -> Vec<(String, String)> {
-        let notes = self.entries.iter().filter(|(key, _)| key.starts_with("cryptomatte/"));
+        let notes = self.entries.iter().filter(|(key, _)| key.starts_with("cryptomatte/") || *key == LIGHT_GROUPS_KEY);
         notes.map(|(key, text)| (key.clone(), text.clone())).collect()
     }
 
@@ -239,18 +243,18 @@ impl PartHeader {
         let mut found: BTreeMap<String, Vec<f32>> = wanted.iter().map(name).zip(planes).collect();
         let unknown = |name: &str| failure(format!("its channel {name} is not as this program writes it"));
         let mut channel = |name: &str| found.remove(name).ok_or_else(|| unknown(name));
-        let mut of_kernel = |kernel: KernelLayer| {
-            let PartChannels { values, remainders, count } = kernel.part_channels();
-            Ok(KernelChannels {
+        let mut of_layer = |layer: RenderedLayer| {
+            let PartChannels { values, remainders, count } = layer.part_channels();
+            Ok(RenderedChannels {
                 means: values.iter().map(|name| channel(name)).collect::<Result<_, _>>()?,
                 remainders: remainders.iter().map(|name| channel(name)).collect::<Result<_, _>>()?,
-                counts: channel(count)?,
+                counts: channel(&count)?,
             })
         };
-        let kernels = self.kernels().map(&mut of_kernel).collect::<Result<_, MergeError>>()?;
+        let rendered = self.rendered().map(&mut of_layer).collect::<Result<_, MergeError>>()?;
         let channels = part_channels().map(&mut channel).collect::<Result<_, _>>()?;
         let fixed = self.fixed_channels().map(&mut channel).collect::<Result<_, _>>()?;
-        let pixels = PartPixels { channels, kernels, fixed };
+        let pixels = PartPixels { channels, rendered, fixed };
         self.check_counts(&pixels).map_err(failure)?;
         Ok(pixels)
     }
@@ -270,12 +274,12 @@ impl PartHeader {
             let (count, said) = (pixels.counts()[place], self.samples.len());
             return Err(format!("its channel SampleCount holds {count} at {column}, {row}, and its header says {said} samples"));
         }
-        let of_layers = pixels.kernels.iter().find_map(|kernel| kernel.counts.iter().find(|count| **count < 0.0));
+        let of_layers = pixels.rendered.iter().find_map(|layer| layer.counts.iter().find(|count| **count < 0.0));
         of_layers.map_or(Ok(()), |count| Err(format!("a layer has {count} samples of a pixel")))
     }
 }
 
-impl KernelChannels {
+impl RenderedChannels {
     /// A pixel's means, and how many samples they are over.
     pub fn at(&self, pixel: usize) -> ([f64; 3], f64) {
         let mut means = [0.0; 3];

@@ -79,6 +79,11 @@ impl Channels {
         self.values.keys().map(String::as_str)
     }
 
+    /// All of the header's texts and numbers by their keys.
+    pub fn attributes(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.attributes.iter().map(|(key, text)| (key.as_str(), text.as_str()))
+    }
+
     /// The text or number that the header has under this key.
     pub fn attribute(&self, key: &str) -> Option<&str> {
         self.attributes.get(key).map(String::as_str)

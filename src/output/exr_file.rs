@@ -1,5 +1,6 @@
 //! OpenEXR pictures: RGB scan lines, f32 or f16, written block by block.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::io::{Seek, SeekFrom, Write};
@@ -98,7 +99,7 @@ fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, r
 
 /// A channel of the file.
 struct Channel {
-    name: &'static str,
+    name: Cow<'static, str>,
     sample_type: SampleType,
     content: Content,
 }
@@ -122,17 +123,25 @@ fn channels(spec: &PictureSpec, have_counts: bool) -> Vec<Channel> {
         content: Content::Layer(source),
     };
     let mut channels: Vec<Channel> = if spec.part.is_some() {
-        let of_part = |(place, name)| Channel { name, sample_type: SampleType::F32, content: Content::Part(place) };
+        let of_part = |(place, name): (usize, &'static str)| Channel {
+            name: name.into(),
+            sample_type: SampleType::F32,
+            content: Content::Part(place),
+        };
         // Variances that are rendered say more than those that are taken from luminance.
         PART.into_iter().enumerate().filter(|(_, name)| !is_layer(name)).map(of_part).collect()
     } else {
-        let of_colour = |(place, name)| Channel { name, sample_type: colour, content: Content::Colour(place) };
-        let count = LayerChannel { name: SAMPLE_COUNT, source: LayerSource::Count };
+        let of_colour = |(place, name): (usize, &'static str)| Channel {
+            name: name.into(),
+            sample_type: colour,
+            content: Content::Colour(place),
+        };
+        let count = LayerChannel::new(SAMPLE_COUNT, LayerSource::Count);
         let counts = (have_counts && !is_layer(SAMPLE_COUNT)).then_some(count).map(of_layer);
         COLOURS.into_iter().enumerate().map(of_colour).chain(counts).collect()
     };
     channels.extend(spec.layers.iter().cloned().map(of_layer));
-    channels.sort_unstable_by_key(|channel| channel.name);
+    channels.sort_unstable_by(|one, other| one.name.cmp(&other.name));
     channels
 }
 
@@ -254,7 +263,7 @@ pub fn part_channels() -> impl Iterator<Item = &'static str> {
 
 /// `have_counts`: the file says how many samples each pixel has, in a channel of its own.
 fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_counts: bool) -> Header {
-    let describe = |channel: &Channel| ChannelDescription::new(channel.name, channel.sample_type, false);
+    let describe = |channel: &Channel| ChannelDescription::new(&*channel.name, channel.sample_type, false);
     let channels = channels(spec, have_counts).iter().map(describe).collect();
     let size = Vec2(spec.width as usize, spec.height as usize);
     let mut header = Header::new(Text::from("gpt"), size, channels).with_encoding(

@@ -1,11 +1,12 @@
 //! Layers that go into an EXR file beside the picture. They are rendered before it and wait in temporary files, not in memory.
 
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{Read, Result, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::temporary::{in_temporary_folder, temporary_file};
-use crate::film::{KernelLayer, Layer};
+use crate::film::{Layer, RenderedLayer, group_channels};
 
 /// The channel of the numbers of samples that pixels have.
 pub const SAMPLE_COUNT: &str = "SampleCount";
@@ -63,7 +64,7 @@ impl LayerPicture {
 /// A channel beside red, green and blue.
 #[derive(Debug, Clone)]
 pub struct LayerChannel {
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     pub source: LayerSource,
 }
 
@@ -98,42 +99,50 @@ impl LayerChannel {
     /// The channels of a layer whose numbers a picture holds; where none does, the number of samples is meant.
     pub fn of(layer: Layer, picture: Option<&Arc<LayerPicture>>) -> Vec<Self> {
         let ends = |names: [&'static str; 3], source: fn(usize) -> LayerSource| {
-            names.into_iter().enumerate().map(|(place, name)| Self { name, source: source(place) }).collect()
+            names.into_iter().enumerate().map(|(place, name)| Self::new(name, source(place))).collect()
         };
         let Some(picture) = picture else {
             return match layer {
                 Layer::Low => ends(LOW, LayerSource::Low),
                 Layer::High => ends(HIGH, LayerSource::High),
-                _ => vec![Self { name: SAMPLE_COUNT, source: LayerSource::Count }],
+                _ => vec![Self::new(SAMPLE_COUNT, LayerSource::Count)],
             };
         };
         let of_picture = |names: &[&'static str], source: &dyn Fn(usize) -> LayerSource| -> Vec<Self> {
-            names.iter().enumerate().map(|(place, name)| Self { name, source: source(place) }).collect()
+            names.iter().enumerate().map(|(place, name)| Self::new(*name, source(place))).collect()
         };
         match layer {
             // Beside the depth stands how many of the samples met a surface.
-            Layer::Alpha => vec![Self { name: "A", source: LayerSource::Component(picture.clone(), 1) }],
+            Layer::Alpha => vec![Self::new("A", LayerSource::Component(picture.clone(), 1))],
             Layer::Variance => {
                 of_picture(&["Variance.R", "Variance.G", "Variance.B"], &|place| LayerSource::Variance(picture.clone(), place))
             }
             Layer::Ids => of_picture(&["ObjectId", "MaterialId"], &|place| LayerSource::Whole(picture.clone(), place)),
-            _ => layer.kernel().map_or_else(Vec::new, |kernel| {
-                of_picture(kernel.part_channels().values, &|place| LayerSource::Component(picture.clone(), place))
-            }),
+            _ => layer.kernel().map_or_else(Vec::new, |kernel| Self::components(kernel.part_channels().values, picture)),
         }
+    }
+
+    /// The channels of the light of a group.
+    pub fn of_group(group: &str, picture: &Arc<LayerPicture>) -> Vec<Self> {
+        Self::components(group_channels(group).to_vec(), picture)
+    }
+
+    /// A channel of this name.
+    pub fn new(name: impl Into<Cow<'static, str>>, source: LayerSource) -> Self {
+        Self { name: name.into(), source }
+    }
+
+    fn components(names: Vec<String>, picture: &Arc<LayerPicture>) -> Vec<Self> {
+        let channel = |(place, name): (usize, String)| Self::new(name, LayerSource::Component(picture.clone(), place));
+        names.into_iter().enumerate().map(channel).collect()
     }
 
     /// The channels that a part needs to be joined with others: means, their rounding errors, and how many
     /// samples they are over.
-    pub fn of_part(kernel: KernelLayer, [means, remainders, counts]: [&Arc<LayerPicture>; 3]) -> Vec<Self> {
-        let channels = kernel.part_channels();
-        let of_picture = |names: &[&'static str], picture: &Arc<LayerPicture>| -> Vec<Self> {
-            let source = |place| LayerSource::Component(picture.clone(), place);
-            names.iter().enumerate().map(|(place, name)| Self { name, source: source(place) }).collect()
-        };
-        let means = of_picture(channels.values, means);
-        let others = of_picture(channels.remainders, remainders).into_iter().chain(of_picture(&[channels.count], counts));
-        means.into_iter().chain(others).collect()
+    pub fn of_part(layer: &RenderedLayer, [means, remainders, counts]: [&Arc<LayerPicture>; 3]) -> Vec<Self> {
+        let channels = layer.part_channels();
+        let of_names = [(channels.values, means), (channels.remainders, remainders), (vec![channels.count], counts)];
+        of_names.into_iter().flat_map(|(names, picture)| Self::components(names, picture)).collect()
     }
 
     /// Adds those whose names are not there yet: a layer may be asked for twice.

@@ -29,6 +29,6 @@ pub use gpt_scene::atomic_file::{AtomicFile, check_target, remove_left_over, rem
 pub use gpt_scene::output_error::OutputError;
 pub use layers::{HIGH, LOW, LayerChannel, LayerPicture, LayerSource, SAMPLE_COUNT, sample_variance};
 pub use picture::{PictureFile, STDOUT};
-pub use provenance::{CONFIDENCE_KEY, CROP_KEY, LAYERS_KEY, PICTURE_HIGH_KEY, PICTURE_LOW_KEY, Provenance};
+pub use provenance::{CONFIDENCE_KEY, CROP_KEY, LAYERS_KEY, LIGHT_GROUPS_KEY, PICTURE_HIGH_KEY, PICTURE_LOW_KEY, Provenance};
 pub use read::{Image, PictureKind, ReadError, ReadPicture, cut, read_image, read_picture, read_undamaged_picture};
 pub use spec::{ExrCompression, ExrOptions, PartSpec, PictureSpec};

@@ -43,6 +43,9 @@ pub const CROP_KEY: &str = "gpt:crop";
 /// Key of the layers that an EXR file has beside the picture, as they were asked for.
 pub const LAYERS_KEY: &str = "gpt:layers";
 
+/// Key of the light groups that an EXR file has as layers, in their order, with commas between them.
+pub const LIGHT_GROUPS_KEY: &str = "gpt:lightGroups";
+
 /// Key of 1 where the render was interrupted or its device lost, else 0: a time limit, say, leaves a finished picture.
 pub(super) const BROKEN_OFF_KEY: &str = "gpt:brokenOff";
 

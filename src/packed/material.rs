@@ -211,13 +211,13 @@ impl PackedMaterials {
     pub fn new(scene: &Scene, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
         let mut packed = Self::default();
         let media = Media::of(scene);
-        packed.media = PackedMedia::new(&media, of_surfaces)?;
+        packed.media = PackedMedia::new(&media, &scene.light_groups, of_surfaces)?;
         let has_media = !packed.media.is_empty();
         for id in with_interfaces(scene, of_surfaces.iter().copied()) {
             let mut material = match &scene.materials[id].kind {
                 MaterialKind::Blend { .. } => packed.blend(scene, id)?,
                 MaterialKind::Layered(layers) => packed.layered(scene, (id, layers))?,
-                _ => packed.plain(&scene.materials[id]),
+                _ => packed.plain(scene, id),
             };
             material.emission_flags |= if has_media { (media.behind(id) as u32) << MEDIUM_SHIFT } else { 0 };
             material.emission_flags |= if has_media && media.is_open(id) { OPEN_BOUNDARY } else { 0 };
@@ -258,7 +258,7 @@ impl PackedMaterials {
             let place = match places.entry(id) {
                 Entry::Occupied(place) => *place.get(),
                 Entry::Vacant(vacant) => {
-                    let material = self.plain(&scene.materials[id]);
+                    let material = self.plain(scene, id);
                     self.materials.push(material);
                     self.scene_ids.push(id);
                     *vacant.insert(self.materials.len() - 1)
@@ -274,7 +274,7 @@ impl PackedMaterials {
     }
 
     fn layered(&mut self, scene: &Scene, stack: (MaterialId, &LayerStack)) -> Result<PackedMaterial, PackError> {
-        let mut packed = PackedMaterial::new(&scene.materials[stack.0]);
+        let mut packed = PackedMaterial::of(scene, stack.0);
         let run = LayerRun::new(scene, stack, &mut self.layers, &mut self.media)?;
         packed.kind_and_form = LAYERED;
         packed.color1 = [run.first, run.count_and_flags, 0].map(f32::from_bits);
@@ -283,8 +283,9 @@ impl PackedMaterials {
     }
 
     /// Packs a material that is no blend, or what a blend is besides its parts.
-    fn plain(&mut self, material: &Material) -> PackedMaterial {
-        let mut packed = PackedMaterial::new(material);
+    fn plain(&mut self, scene: &Scene, id: MaterialId) -> PackedMaterial {
+        let material = &scene.materials[id];
+        let mut packed = PackedMaterial::of(scene, id);
         if let Some(lobe) = material.kind.lobe().filter(|lobe| !lobe.further.is_empty()) {
             packed.further = self.further.len() as u32 | (lobe.further.len() as u32) << FURTHER_SHIFT;
             self.further.extend(lobe.further.iter().map(|input| {
@@ -326,7 +327,7 @@ impl PackedMaterials {
 
     fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<PackedMaterial, PackError> {
         let BlendParts { plain, emitting_blends } = parts(scene, id)?;
-        let mut packed = PackedMaterial::new(&scene.materials[id]);
+        let mut packed = PackedMaterial::of(scene, id);
         // A blend that always is one of its materials is that material.
         if let [BlendPart { material, constant: 1.0, factors, front_only }] = plain.as_slice()
             && factors.is_empty()
@@ -335,7 +336,7 @@ impl PackedMaterials {
             && packed.emission_flags == 0
             && packed.normal_map == NONE
         {
-            return Ok(self.plain(&scene.materials[*material]));
+            return Ok(self.plain(scene, *material));
         }
         if scene.render.blend == BlendMode::Mixture
             && emitting_blends.is_empty()
@@ -399,7 +400,14 @@ impl PackedMaterials {
 }
 
 impl PackedMaterial {
-    /// Packs a material; of a blend, what it is besides its parts.
+    /// Packs a material; of a blend, what it is besides its parts. Emission that is not to be seen is black, and an emission all the same: paths and
+    /// weights are those of the picture.
+    fn of(scene: &Scene, id: MaterialId) -> Self {
+        let packed = Self::new(&scene.materials[id]);
+        let is_seen = scene.light_groups.shows(scene.light_groups.of_material(id));
+        if is_seen { packed } else { Self { emission: [0.0; 3], ..packed } }
+    }
+
     fn new(material: &Material) -> Self {
         let without_lobe = if material.is_blend() { BLEND } else { NO_LOBE };
         let lobe = material.kind.lobe();

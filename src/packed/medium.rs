@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::error::PackError;
 use super::volume::{PackedVolume, PackedVolumes};
 use crate::scene::media;
-use crate::scene::{Filling, MaterialId, Media, Phase, PhaseKind, PhaseLobe};
+use crate::scene::{Filling, LightGroups, MaterialId, Media, Phase, PhaseKind, PhaseLobe};
 use crate::shader::shared::shared_constants;
 
 /// Media have numbers of 16 bits, from 1.
@@ -21,6 +21,8 @@ shared_constants!(constants {
     const MEDIUM_VARIES: u32 = 4;
     const MEDIUM_HAS_ALBEDOS: u32 = 8;
     const MEDIUM_HAS_GLOW: u32 = 16;
+    /// Flag of a medium that gives off light, seen or not.
+    const MEDIUM_GIVES_LIGHT: u32 = 32;
     /// Most places at which a ray looks up the density of a medium, and the share of light below which it goes on by chance.
     const MOST_LOOKUPS: u32 = media::MOST_LOOKUPS;
     const FAINT: f32 = media::FAINT as f32;
@@ -45,6 +47,13 @@ pub struct PackedMedium {
     pub emission: [f32; 3],
     /// The first of its volumes: the density, then those that its flags name.
     pub first_volume: u32,
+}
+
+impl PackedMedium {
+    /// The medium gives off light, which a render in the light of another group does not see.
+    fn gives_light(&self) -> bool {
+        self.flags & MEDIUM_GIVES_LIGHT != 0
+    }
 }
 
 /// A part of a phase function, 16 bytes.
@@ -73,7 +82,7 @@ impl PackedMedia {
     ///
     /// # Errors
     /// [`PackError::TooManyMedia`] or [`PackError::TooManyPhases`] where their numbers do not fit.
-    pub fn new(media: &Media, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
+    pub fn new(media: &Media, groups: &LightGroups, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
         let mut packed = Self::default();
         let counts = |number: usize| media.filling(number).is_some_and(|filling| !filling.is_clear());
         if !of_surfaces.iter().map(|&id| media.behind(id)).chain([media.around_camera]).any(counts) {
@@ -84,7 +93,8 @@ impl PackedMedia {
         }
         for filling in &media.fillings {
             let medium = packed.medium(filling)?;
-            packed.media.push(medium);
+            let is_seen = groups.shows(filling.light_group);
+            packed.media.push(if is_seen { medium } else { PackedMedium { emission: [0.0; 3], ..medium } });
         }
         packed.around_camera = media.around_camera as u32;
         Ok(packed)
@@ -127,7 +137,8 @@ impl PackedMedia {
                 | flag(filling.is_light_sampled, MEDIUM_IS_LIGHT_SAMPLED)
                 | flag(grids.is_some(), MEDIUM_VARIES)
                 | flag(grids.is_some_and(|grids| grids.albedo().is_some()), MEDIUM_HAS_ALBEDOS)
-                | flag(grids.is_some_and(|grids| grids.emission().is_some()), MEDIUM_HAS_GLOW),
+                | flag(grids.is_some_and(|grids| grids.emission().is_some()), MEDIUM_HAS_GLOW)
+                | flag(!filling.emission.is_black(), MEDIUM_GIVES_LIGHT),
             scattering: filling.scattering.to_f32(),
             phase: phase | flag(filling.is_dark, PHASE_IS_DARK),
             emission: filling.emission.to_f32(),
@@ -175,13 +186,13 @@ impl PackedMedia {
 
     /// Some medium that differs from place to place is passed by paths, which it does not scatter or to which it gives light.
     pub fn pass_paths(&self) -> bool {
-        let passes = |medium: &PackedMedium| medium.flags & MEDIUM_SCATTERS == 0 || medium.emission != [0.0; 3];
+        let passes = |medium: &PackedMedium| medium.flags & MEDIUM_SCATTERS == 0 || medium.gives_light();
         self.media.iter().any(|medium| medium.flags & MEDIUM_VARIES != 0 && passes(medium))
     }
 
     /// Some medium gives off light.
     pub fn emit(&self) -> bool {
-        self.media.iter().any(|medium| medium.emission != [0.0; 3])
+        self.media.iter().any(PackedMedium::gives_light)
     }
 }
 

@@ -9,6 +9,7 @@ use super::error::PackError;
 use super::hierarchy::{Hierarchy, Traversal};
 use super::instance::PackedInstance;
 use super::light::PackedLight;
+use super::light::profile::PackedProfile;
 use super::material::PackedMaterials;
 use super::primitive::Primitive;
 use super::texture::PackedTextures;
@@ -36,6 +37,8 @@ pub struct PackedScene {
     /// Which lights reach which part of the scene, as a table ([`crate::sampling::light_cells`]); empty where they are chosen otherwise. It knows of nothing
     /// until that is [learned](PackedScene::set_light_cells).
     pub light_cells: Vec<u32>,
+    /// Profiles that lights name.
+    pub light_profiles: Vec<PackedProfile>,
     pub textures: PackedTextures,
     pub environment: PackedEnvironment,
     /// How shapes move (`PackedMotion::words` of `packed::motion`).
@@ -91,11 +94,11 @@ impl PackedScene {
         let mut textures = PackedTextures::new(scene, materials.textures_mut().chain(of_lights), &grids)?;
         materials.media.volumes.place(&mut textures)?;
         let environment = light::environment(scene, &mut textures)?;
-        let light::SampledLights { mut lights, local_count, nodes, cells } =
+        let light::SampledLights { mut lights, local_count, nodes, cells, profiles } =
             light::collect(scene, &mut world, &environment, &projected_textures, &mut textures)?;
         let places = materials.places(scene);
         world.replace_materials(|material| places[material] as usize);
-        for light in lights.iter_mut().filter(|light| light.material != NONE) {
+        for light in lights.iter_mut().filter(|light| light.is_surface() && light.material != NONE) {
             light.material = places[light.material as usize];
         }
         let (hierarchy, order) = tree::build(&world, traversal, kept)?;
@@ -114,6 +117,7 @@ impl PackedScene {
             local_lights: local_count,
             light_nodes: nodes,
             light_cells: cells,
+            light_profiles: profiles,
             textures,
             environment,
             motions: world.motion_words,

@@ -1,5 +1,5 @@
-//! One array for all that shading looks up: materials and their further parameters, media, the parts and weights of blends, lights and the tree
-//! of them, textures, motions.
+//! One array for all that shading looks up: materials and their further parameters, media, the parts and weights of blends, lights, the tree
+//! of them and their profiles, textures, motions.
 
 use super::scene::PackedScene;
 
@@ -18,6 +18,7 @@ pub struct Tables {
     pub first_phase: u32,
     pub first_volume: u32,
     pub first_light_node: u32,
+    pub first_light_profile: u32,
 }
 
 impl Tables {
@@ -35,6 +36,7 @@ impl Tables {
         tables.first_phase = tables.append(&packed.materials.media.phases);
         tables.first_volume = tables.append(&packed.materials.media.volumes.volumes);
         tables.first_light_node = tables.append(&packed.light_nodes);
+        tables.first_light_profile = tables.append(&packed.light_profiles);
         tables
     }
 

@@ -26,7 +26,7 @@ pub struct View {
     pub eye: [f32; 4],
     /// Words that the shader of the camera's model reads.
     pub model: [[f32; 4]; 4],
-    /// One over the distance at which the eyes converge.
+    /// One over the distance at which the eyes converge; how far from the camera rays start that come back to it.
     pub convergence: [f32; 4],
     /// Between the moments at which two rows begin to be exposed, and how long each is, as shares of the exposure.
     pub rolling: [f32; 4],
@@ -69,7 +69,7 @@ impl View {
             lens_v,
             eye,
             model: model.map(|word| word.as_vec4().to_array()),
-            convergence: [convergence as f32, 0.0, 0.0, 0.0],
+            convergence: [convergence as f32, scene.camera.inward_from as f32, 0.0, 0.0],
             rolling: [from_row_to_row as f32, scene.camera.rolling_shutter as f32, 0.0, 0.0],
             environment: environment.words.map(|word| word.as_vec4().to_array()),
             filter_curve: *FilterSampler::new(scene.film.filter).curve(),

@@ -131,9 +131,9 @@ impl Golden {
         let variances = Arc::new(variances);
         let layers = VARIANCE.iter().enumerate().map(|(place, name)| {
             let source = LayerSource::Component(variances.clone(), place);
-            LayerChannel { name, source }
+            LayerChannel::new(*name, source)
         });
-        let count = LayerChannel { name: SAMPLE_COUNT, source: LayerSource::Count };
+        let count = LayerChannel::new(SAMPLE_COUNT, LayerSource::Count);
         let replications = self.replications.map(|count| (REPLICATIONS_KEY.to_owned(), count.to_string()));
         let flip = self.flip_of_noise.map(|flip| (FLIP_KEY.to_owned(), format!("{flip:.5}")));
         let mut provenance = provenance;

@@ -35,6 +35,7 @@ pub fn constants() -> Constants {
         volume::constants(),
         blend_weight::constants(),
         light::constants(),
+        light::profile::constants(),
         light_cells::constants(),
         texture::constants(),
     ]

@@ -131,6 +131,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("FIRST_LAYER_WORD", tables.first_layer),
         ("FIRST_PART_WORD", tables.first_part),
         ("FIRST_LIGHT_NODE_WORD", tables.first_light_node),
+        ("FIRST_LIGHT_PROFILE_WORD", tables.first_light_profile),
         ("FIRST_LIGHT_WORD", tables.first_light),
         ("CAMERA_MEDIUM", packed.materials.media.around_camera),
         ("FIRST_MEDIUM_WORD", tables.first_medium),
@@ -234,12 +235,14 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
         switches.enable(kind.number_name(), has(kind));
     }
     switches.enable("LIGHT_TEXTURES", packed.lights.iter().any(PackedLight::projects_texture));
+    switches.enable("LIGHT_PROFILES", packed.lights.iter().any(PackedLight::has_profile));
     switches.enable("SPOT_FALLOFFS", packed.lights.iter().any(|light| light.is(LightKind::Spot) && light.form() != 0));
     let environment = !packed.environment.is_black();
     switches.enable("ENVIRONMENT", environment);
     if let Some(switch) = packed.environment.switch.filter(|_| environment) {
         switches.enable(switch, true);
     }
+    switches.enable("OUTSIDE_UNSEEN", environment && !scene.shows_outside());
     switches.enable("ENVIRONMENT_TURNED", environment && packed.environment.is_turned());
     switches.enable("ENVIRONMENT_LIGHT", sampled && has(LightKind::Environment));
     switches.enable("MOVING_LIGHTS", packed.lights.iter().any(PackedLight::moves));
@@ -304,6 +307,7 @@ fn enable_camera_model(switches: &mut Switches, camera: &Camera, is_bent: bool) 
     for &switch in camera.projection.switches() {
         switches.enable(switch, is_bent);
     }
+    switches.enable("CAMERA_INWARD", camera.inward_from > 0.0);
     switches.enable("CAMERA_TILES", camera.tiles() != [1, 1]);
     switches.enable("STEREO", camera.stereo.is_some());
     let eyes = camera.projection.model().map(|model| model.eyes());

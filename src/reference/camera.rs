@@ -162,7 +162,14 @@ impl CameraRays {
                 let on_window = (at * window.half_extent).extend(0.0);
                 if window.is_parallel { (on_window, DVec3::NEG_Z) } else { (DVec3::ZERO, on_window - DVec3::Z) }
             }
-            (None, Some(model)) => (DVec3::ZERO, model.direction(place)?),
+            (None, Some(model)) => {
+                let direction = model.direction(place)?;
+                if self.camera.inward_from > 0.0 {
+                    (direction.normalize() * self.camera.inward_from, -direction)
+                } else {
+                    (DVec3::ZERO, direction)
+                }
+            }
             (None, None) => return None,
         };
         if let Some(stereo) = self.camera.stereo {

@@ -133,6 +133,7 @@ mod tests {
             grids: None,
             is_light_sampled: true,
             is_dark: false,
+            light_group: 0,
         }
     }
 

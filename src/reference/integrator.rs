@@ -200,7 +200,7 @@ impl Integrator {
         if let Some(grids) = &filling.grids {
             return self.fly_through_grids(path, (filling, grids), length, sampler, visitor);
         }
-        if self.media.emit() {
+        if self.media.emit() && self.scene.light_groups.shows(filling.light_group) {
             let contribution = path.throughput * given_off(filling, length);
             path.radiance += contribution;
             visitor.given_off(contribution);
@@ -238,7 +238,7 @@ impl Integrator {
         if emits || !filling.scatters() {
             let mut numbers = stream(MediumDimension::Pass);
             let passage = pass_through(medium, (&path.ray, length), emits, || visitor.round_number(numbers.draw()));
-            if emits {
+            if emits && self.scene.light_groups.shows(filling.light_group) {
                 let contribution = path.throughput * passage.given_off;
                 path.radiance += contribution;
                 visitor.given_off(contribution);
@@ -378,7 +378,7 @@ impl Integrator {
 
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_escaped_radiance<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
-        if path.depth == 1 && self.scene.render.emitters == Emitters::Hidden {
+        if !self.lights.shows_outside() || (path.depth == 1 && self.scene.render.emitters == Emitters::Hidden) {
             return visitor.escaped(Spectrum::BLACK, 1.0, Spectrum::BLACK);
         }
         let radiance = self.lights.outside().radiance(path.ray.direction);

@@ -28,6 +28,12 @@ pub trait Observer: Sync {
     /// True: stop soon, deliver what is done.
     fn stop_requested(&self) -> bool;
 
+    /// True where nobody wants the picture any more: a render that is asked to stop then stops at once, though pixels have no sample yet. Asked while
+    /// paths are followed, so the answer must be quick.
+    fn is_abandoned(&self) -> bool {
+        false
+    }
+
     /// True if [`Observer::rows_so_far`] shall be called now. Asked after each pass, so the answer must be
     /// quick.
     fn wants_rows(&self) -> bool {

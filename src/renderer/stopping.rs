@@ -37,10 +37,10 @@ impl<'a> Stopping<'a> {
     }
 
     /// The reason to end after a pass, if there is one. `is_whole` says that every pixel has its first
-    /// sample. The observer waits a little for that, and a time limit waits as long as it takes.
+    /// sample. The observer waits a little for that, unless it wants no picture any more; a time limit waits as long as it takes.
     pub fn after_pass(&self, is_whole: bool) -> Option<Ending> {
         match self.asked_since() {
-            Some(since) if is_whole || since > PATIENCE => return Some(Ending::Interrupted),
+            Some(since) if is_whole || since > PATIENCE || self.observer.is_abandoned() => return Some(Ending::Interrupted),
             _ => {}
         }
         self.late_by(LATENESS).filter(|late| *late && is_whole).map(|_| Ending::OutOfTime)
@@ -54,7 +54,7 @@ impl<'a> Stopping<'a> {
 
     /// The reason to give up paths that do not end, if there is one.
     pub fn gives_up_paths(&self) -> Option<Ending> {
-        if self.asked_since().is_some_and(|since| since > LONGEST_PATH) {
+        if self.asked_since().is_some_and(|since| since > LONGEST_PATH || self.observer.is_abandoned()) {
             return Some(Ending::Interrupted);
         }
         self.late_by(LONGEST_PATH).filter(|late| *late).map(|_| Ending::OutOfTime)
@@ -79,18 +79,30 @@ mod tests {
     use super::*;
     use crate::renderer::Silent;
 
-    struct Stop;
+    struct Stop {
+        is_abandoned: bool,
+    }
 
     impl Observer for Stop {
         fn progress(&self, _done: u64, _total: u64) {}
         fn stop_requested(&self) -> bool {
             true
         }
+        fn is_abandoned(&self) -> bool {
+            self.is_abandoned
+        }
+    }
+
+    #[test]
+    fn an_observer_that_wants_no_picture_waits_for_nothing() {
+        let stopping = Stopping::new(&Stop { is_abandoned: true }, None);
+        assert_eq!(stopping.after_pass(false), Some(Ending::Interrupted));
+        assert_eq!(stopping.gives_up_paths(), Some(Ending::Interrupted));
     }
 
     #[test]
     fn an_observer_that_asks_waits_for_the_first_samples_only() {
-        let stopping = Stopping::new(&Stop, None);
+        let stopping = Stopping::new(&Stop { is_abandoned: false }, None);
         assert_eq!(stopping.after_pass(true), Some(Ending::Interrupted));
         assert_eq!((stopping.after_pass(false), stopping.gives_up_paths()), (None, None));
         std::thread::sleep(LONGEST_PATH + Duration::from_millis(50));

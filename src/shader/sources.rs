@@ -59,6 +59,7 @@ shader_files![
     "shading/light/light_sample.wgsl",
     "shading/light/place.wgsl",
     "shading/light/portal.wgsl",
+    "shading/light/profile.wgsl",
     "shading/light/projected_picture.wgsl",
     "shading/light/record.wgsl",
     "shading/light/sampling.wgsl",

@@ -189,6 +189,8 @@ const OF_FEATURES: &[Switch] = &[
     // The picture is not flat.
     switch("CAMERA_MODEL").one_of(CAMERA_MODELS).excludes(&["ORTHOGRAPHIC"]),
     // The picture consists of several views.
+    // Rays come from all around back to the camera's position.
+    switch("CAMERA_INWARD").requires(&["FISHEYE"]).excludes(&["STEREO"]),
     switch("CAMERA_TILES"),
     // The camera moves while the shutter is open.
     switch("CAMERA_MOTION"),
@@ -257,6 +259,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("LIGHTS_BY_PICTURE")
         .requires(&["LIGHTS", "TEXELS", "TEXTURES", "VARYING_LIGHTS"])
         .one_of(&["AREA_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_PICTURE"]),
+    // The intensity of some delta light differs from direction to direction by a profile.
+    switch("LIGHT_PROFILES").requires(&["DELTA_LIGHTS", "TEXELS"]).one_of(&["POINT_LIGHT", "SPOT_LIGHT"]),
     // Some delta light projects a texture.
     switch("LIGHT_TEXTURES").requires(&["DELTA_LIGHTS", "TEXTURES"]),
     // Some surface encloses a medium that takes or gives light, or the camera is within one.
@@ -284,6 +288,8 @@ const OF_FEATURES: &[Switch] = &[
     // Null surfaces bound media.
     switch("OPEN_BOUNDARIES").requires(&["MEDIA"]),
     switch("ORTHOGRAPHIC"),
+    // The light of one group is rendered, and that from outside the scene is in another.
+    switch("OUTSIDE_UNSEEN").requires(&["ENVIRONMENT"]).excludes(&["LAYER_OF_SURFACES"]),
     switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
     switch("PERLIN").requires(&["PROCEDURAL_TEXTURES"]),
     // Studies of cosine-power lobes.

@@ -33,6 +33,7 @@ mod picture_files;
 mod picture_tests;
 #[cfg(unix)]
 mod referee;
+mod regroup;
 mod tight_limits;
 mod traversal;
 mod verify;

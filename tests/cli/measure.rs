@@ -22,6 +22,11 @@ const LAMPS: &str = "[camera]\nposition = [0, 2, 6]\nlook_at = [0, 1, 0]\nvfov =
 const RECTANGLE: &str = "<scene version='3.0.0'><emitter type='constant'><rgb name='radiance' value='0.5,0.25,1'/></emitter>\
     <shape type='rectangle'><transform name='to_world'><rotate x='1' angle='-90'/><scale x='2' z='1.5'/><translate x='3' y='1'/></transform>\
     <bsdf type='diffuse'/><sensor type='irradiancemeter' id='floor'/></shape>\
+    <shape type='sphere'><point name='center' x='30'/><float name='radius' value='0.5'/><bsdf type='diffuse'/>\
+    <sensor type='irradiancemeter' id='ball'/></shape>\
+    <shape type='disk'><transform name='to_world'><rotate x='1' angle='-90'/><scale value='0.5'/><translate x='-30'/></transform>\
+    <bsdf type='diffuse'/><sensor type='irradiancemeter' id='disk'/></shape>\
+    <shape type='cube'><transform name='to_world'><translate y='-90'/></transform><sensor type='irradiancemeter' id='cube'/></shape>\
     <sensor type='perspective'><float name='fov' value='40'/></sensor>\
     <sensor type='radiancemeter' id='ray'><point name='origin' x='0' y='4' z='0'/><vector name='direction' x='0' y='1' z='0'/></sensor>\
     <sensor type='distant' id='far'><vector name='direction' x='0' y='1' z='0'/><point name='target' x='9' y='0' z='0'/></sensor></scene>";
@@ -73,6 +78,41 @@ fn meters_read_what_formulas_say() {
     }
 }
 
+/// A lamp of no extent and intensity 9 above round meters, beside which a black wall of the size of their papers would change nothing.
+const ROUND: &str = "[camera]\nposition = [0, 2, 6]\nlook_at = [0, 1, 0]\nvfov = 40\n\
+    [[light]]\ntype = 'point'\nposition = [0, 2, 0]\nintensity = [9, 4.5, 0.9]\n\
+    [[material]]\nname = 'black'\ntype = 'diffuse'\nreflectance = 0\n\
+    [[shape]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 0.5\nmaterial = 'black'\n\
+    [[meter]]\nname = 'ball'\ntype = 'irradiance'\ncenter = [0, 0, 0]\nradius = 0.5\n\
+    [[meter]]\nname = 'disk'\ntype = 'irradiance'\ncenter = [0, 1, 0]\nnormal = [0, 2, 0]\nradius = 1.5\n\
+    [[meter]]\nname = 'away'\ntype = 'irradiance'\ncenter = [0, 1, 0]\nnormal = [0, -1, 0]\nradius = 1.5\n";
+
+/// The flux of a lamp through a disk or onto a ball is its intensity times the solid angle, and the irradiance that over the area.
+#[test]
+#[ignore = "slow"]
+fn round_meters_read_the_flux_over_their_area() {
+    let place = Workplace::new();
+    fs::write(place.path("round.toml"), ROUND).expect("a scene");
+    let solid_angle = |cosine: f64| 2.0 * PI * (1.0 - cosine);
+    let ball = solid_angle((1.0 - 0.25_f64.powi(2)).sqrt()) / (4.0 * PI * 0.25);
+    let disk = solid_angle(1.0 / (1.0 + 1.5_f64.powi(2)).sqrt()) / (PI * 1.5 * 1.5);
+    for device in devices() {
+        let meters = measured(&place, &format!("round.toml --device {device} --target-interval 0.5%"));
+        assert_reads(&meters, "ball", [9.0 * ball, 4.5 * ball, 0.9 * ball]);
+        assert_reads(&meters, "disk", [9.0 * disk, 4.5 * disk, 0.9 * disk]);
+        assert_reads(&meters, "away", [0.0; 3]);
+        // Far from the origin and tiny, where single precision resolves less; a sky of radiance 1 gives π everywhere.
+        let sky = ROUND.replace(
+            "[[light]]\ntype = 'point'\nposition = [0, 2, 0]\nintensity = [9, 4.5, 0.9]",
+            "[[light]]\ntype = 'environment'\nradiance = 1",
+        );
+        let far = sky.replace("center = [0, 0, 0]\nradius = 0.5", "center = [0, 400, 0]\nradius = 0.03");
+        fs::write(place.path("far.toml"), far).expect("a scene");
+        let meters = measured(&place, &format!("far.toml --device {device} --target-interval 0.5% --meter ball"));
+        assert_reads(&meters, "ball", [PI; 3]);
+    }
+}
+
 /// Mitsuba's sensors become meters, and scene files that are written of them read the same.
 #[test]
 fn meters_of_mitsuba_are_imported() {
@@ -80,9 +120,12 @@ fn meters_of_mitsuba_are_imported() {
     fs::write(place.path("room.xml"), RECTANGLE).expect("a scene");
     let meters = measured(&place, "room.xml --device cpu --target-interval 0.5%");
     assert_reads(&meters, "floor", [0.5 * PI, 0.25 * PI, PI]);
+    for open in ["ball", "disk"] {
+        assert_reads(&meters, open, [0.5 * PI, 0.25 * PI, PI]);
+    }
     assert_reads(&meters, "ray", [0.5, 0.25, 1.0]);
     assert_reads(&meters, "far", [0.5, 0.25, 1.0]);
-    assert_eq!(meters.iter().map(|meter| &meter["interval"]["by"]).collect::<Vec<_>>(), ["bound"; 3]);
+    assert_eq!(meters.iter().map(|meter| &meter["interval"]["by"]).collect::<Vec<_>>(), ["bound"; 5]);
     place.expect(0, "import room.xml -o room.toml");
     let again = measured(&place, "room.toml --device cpu --target-interval 0.5% --meter floor");
     let floor = meters.iter().find(|meter| meter["name"] == "floor").expect("it is there");
@@ -103,7 +146,9 @@ fn meters_that_make_no_sense_are_refused() {
     let said = place.expect(2, "measure lamps.toml --meter lux");
     assert!(said.contains("there is no such meter") && said.contains("below, lamp"), "{said}");
     for (wrong, why) in [
-        ("type = 'irradiance'\nposition = [0, 0, 0]", "`position` and `normal`, or `corner`"),
+        ("type = 'irradiance'\nposition = [0, 0, 0]", "`position` and `normal` (a point)"),
+        ("type = 'irradiance'\nposition = [0, 0, 0]\nnormal = [0, 1, 0]\nradius = 1", "`center`, `normal` and `radius` (a disk)"),
+        ("type = 'irradiance'\ncenter = [0, 0, 0]\nradius = 0", "radius"),
         ("type = 'irradiance'\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [1, 1, 0]", "right angle"),
         ("type = 'radiance'\nposition = [0, 0, 0]\ndirection = [0, 0, 0]", "points nowhere"),
         ("type = 'radiance'\nposition = [0, 0, 0]\ndirection = [0, 0, 1]\nmedium = 'fog'", "fog"),

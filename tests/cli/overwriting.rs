@@ -66,6 +66,7 @@ const READERS: &[(&str, &[&str])] = &[
     ("merge p0.exr p1.exr -o {}", &["p0.exr", "p1.exr"]),
     ("merge p0.exr p1.exr -o new.exr -o {}", &["p0.exr", "p1.exr"]),
     ("denoise sky.exr -o {}", &["sky.exr"]),
+    ("regroup sky.exr --group key=2 -o {}", &["sky.exr"]),
     ("compare sky.exr p0.exr --html {}", &["sky.exr", "p0.exr"]),
     ("test scenes -q --device cpu --html {}", &["scenes/lit.toml", "scenes/golden/lit.exr"]),
     ("test scenes -q --device cpu --junit {}", &["scenes/lit.toml", "scenes/golden/lit.exr"]),

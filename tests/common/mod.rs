@@ -4,6 +4,7 @@
 pub mod device;
 pub mod effort;
 pub mod files;
+pub mod light_groups;
 pub mod media;
 pub mod picture;
 pub mod pixel_bits;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::common::light_groups::{in_groups, lit_by};
 use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
 use gpt::learn::{Effort, settle};
@@ -10,13 +11,13 @@ use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
 use gpt::scene::{
-    DistanceSampling, Estimator, Guiding, LayerModel, MaterialKind, MisHeuristic, PhongCosine, PhongHorizon, PhongSampling,
-    PixelSampler, SamplerKind, Scene,
+    DistanceSampling, Estimator, Guiding, LayerModel, MaterialKind, Meter, MeterKind, MisHeuristic, PhongCosine, PhongHorizon,
+    PhongSampling, PixelSampler, SamplerKind, Scene,
 };
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
-const OF_DEVICES: [&str; 26] = [
+const OF_DEVICES: [&str; 27] = [
     "ATTRIBUTE_CHUNKS",
     "CLAMP",
     "FILM_TEXTURE",
@@ -33,6 +34,7 @@ const OF_DEVICES: [&str; 26] = [
     "LAYER_POSITION",
     "LAYER_SQUARES",
     "NODE_CHUNKS",
+    "OUTSIDE_UNSEEN",
     "PACKETS",
     "PIXEL_LIST",
     "PRIMITIVE_CHUNKS",
@@ -62,9 +64,10 @@ const OF_SETTINGS: [&str; 11] = [
 ];
 
 /// Switches of cameras whose picture is not flat, or is not one: a scene has one camera.
-const OF_CAMERAS: [&str; 12] = [
+const OF_CAMERAS: [&str; 13] = [
     "BLIND_PIXELS",
     "BROWN_CONRADY",
+    "CAMERA_INWARD",
     "CAMERA_MODEL",
     "CAMERA_TILES",
     "CUBE_MAP",
@@ -77,7 +80,7 @@ const OF_CAMERAS: [&str; 12] = [
     "TURNING_EYES",
 ];
 
-/// A built-in scene with every example of a camera.
+/// A built-in scene with every example of a camera, and as a meter on a sphere sees it.
 fn with_cameras() -> Vec<Scene> {
     let text = load::builtin_text("spheres").expect("it is built in");
     let of_example = |example: &load::file::CameraExample| {
@@ -86,7 +89,10 @@ fn with_cameras() -> Vec<Scene> {
         let text = text.replace("size = [640, 360]", &size).replace("vfov     = 32\n", example.keys);
         load::load_toml_str(&text, "spheres.toml", std::path::Path::new("")).expect(example.name)
     };
-    load::file::CAMERA_EXAMPLES.iter().map(of_example).collect()
+    let on_sphere = MeterKind::IrradianceOfSphere { center: glam::DVec3::ZERO, radius: 0.5 };
+    let meter = Meter { name: "ball".to_owned(), kind: on_sphere, medium: None };
+    let measured = load::load(Some("spheres")).expect("it is built in").seen_by(&meter);
+    load::file::CAMERA_EXAMPLES.iter().map(of_example).chain([measured]).collect()
 }
 
 /// The switches that scenes compile in on a device.
@@ -162,6 +168,10 @@ fn built_in_scenes_use_every_switch() {
     let mut clamped = built_in[0].clone();
     clamped.render.clamp = 1.0;
     anywhere.extend(compiled_in(&[clamped], &hardware, &PlanOptions::default()));
+    // In the light of one of two groups, that from outside is not seen.
+    let grouped = in_groups(load::load(Some("terrace")).expect("it is built in"));
+    let of_groups = ["odd", "even"].map(|group| lit_by(&grouped, group));
+    anywhere.extend(compiled_in(&of_groups, &hardware, &PlanOptions::default()));
     for distance_sampling in [DistanceSampling::Distance, DistanceSampling::Equiangular] {
         let mut mist = load::load(Some("mist")).expect("it is built in");
         mist.render.distance_sampling = distance_sampling;

@@ -31,6 +31,9 @@ choices! {
         /// Light that emitters and surroundings send to the camera: Emission.R, .G, .B. Direct, indirect
         /// and emission add up to the picture.
         Emission = "emission",
+        /// Light of each group that emitters of the scene name (`light_group`), and of the rest: key.R, .G, .B for the group "key". They add up to the
+        /// picture, and `gpt regroup` weighs them anew.
+        Groups = "groups",
         /// Number of the shape and of the material at the pixel's centre, from 1; 0 where nothing is met: ObjectId, MaterialId.
         Ids = "ids",
         /// Objects and materials with the share of the pixel that each covers, for compositing programs, after the Cryptomatte specification:
@@ -59,24 +62,61 @@ choices! {
     }
 }
 
-/// Channels of a part of a picture in which a kernel's layer stands, so that parts can be joined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PartChannels {
-    /// Means, and what rounding to them lost; one to three of each.
-    pub values: &'static [&'static str],
-    pub remainders: &'static [&'static str],
-    /// How many samples the means are over.
-    pub count: &'static str,
+/// A layer that is a render of its own.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RenderedLayer {
+    /// By kernels that make it in place of radiance.
+    Kernel(KernelLayer),
+    /// By the kernels of the picture, in the light of the group of this name alone.
+    LightGroup(String),
 }
 
-macro_rules! part_channels {
-    ($layer:literal: $($value:literal)*) => {
-        PartChannels {
-            values: &[$($value),*],
-            remainders: &[$(concat!("Remainder.", $value)),*],
-            count: concat!("SampleCount.", $layer),
+/// Channels of a part of a picture in which a rendered layer stands, so that parts can be joined.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PartChannels {
+    /// Means, and what rounding to them lost; one to three of each.
+    pub values: Vec<String>,
+    pub remainders: Vec<String>,
+    /// How many samples the means are over.
+    pub count: String,
+}
+
+impl PartChannels {
+    fn new(layer: &str, values: &[String]) -> Self {
+        let remainders = values.iter().map(|value| format!("Remainder.{value}")).collect();
+        Self { values: values.to_vec(), remainders, count: format!("SampleCount.{layer}") }
+    }
+}
+
+impl RenderedLayer {
+    /// Its name among states of renders.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Kernel(kernel) => kernel.name().to_owned(),
+            Self::LightGroup(group) => format!("{}-{group}", Layer::Groups.name()),
         }
-    };
+    }
+
+    /// The layer of kernels that it is, if it is one.
+    pub fn kernel(&self) -> Option<KernelLayer> {
+        match self {
+            Self::Kernel(kernel) => Some(*kernel),
+            Self::LightGroup(_) => None,
+        }
+    }
+
+    /// Its channels in parts.
+    pub fn part_channels(&self) -> PartChannels {
+        match self {
+            Self::Kernel(kernel) => kernel.part_channels(),
+            Self::LightGroup(group) => PartChannels::new(group, &group_channels(group)),
+        }
+    }
+}
+
+/// The channels of the light of a group.
+pub fn group_channels(group: &str) -> [String; 3] {
+    ["R", "G", "B"].map(|colour| format!("{group}.{colour}"))
 }
 
 impl Layer {
@@ -91,7 +131,7 @@ impl Layer {
             Self::Direct => Some(KernelLayer::Direct),
             Self::Indirect => Some(KernelLayer::Indirect),
             Self::Emission => Some(KernelLayer::Emission),
-            Self::Samples | Self::Low | Self::High | Self::Ids | Self::Cryptomatte => None,
+            Self::Samples | Self::Low | Self::High | Self::Groups | Self::Ids | Self::Cryptomatte => None,
         }
     }
 
@@ -110,16 +150,19 @@ impl Layer {
 impl KernelLayer {
     /// Its channels in parts.
     pub fn part_channels(self) -> PartChannels {
-        match self {
-            Self::Albedo => part_channels!("Albedo": "Albedo.R" "Albedo.G" "Albedo.B"),
-            Self::Normal => part_channels!("N": "N.X" "N.Y" "N.Z"),
-            Self::Position => part_channels!("P": "P.X" "P.Y" "P.Z"),
-            Self::Depth => part_channels!("Z": "Z"),
-            Self::Squares => part_channels!("Square": "Square.R" "Square.G" "Square.B"),
-            Self::Direct => part_channels!("Direct": "Direct.R" "Direct.G" "Direct.B"),
-            Self::Indirect => part_channels!("Indirect": "Indirect.R" "Indirect.G" "Indirect.B"),
-            Self::Emission => part_channels!("Emission": "Emission.R" "Emission.G" "Emission.B"),
-        }
+        let (layer, components): (&str, &[&str]) = match self {
+            Self::Albedo => ("Albedo", &["R", "G", "B"]),
+            Self::Normal => ("N", &["X", "Y", "Z"]),
+            Self::Position => ("P", &["X", "Y", "Z"]),
+            Self::Depth => ("Z", &[]),
+            Self::Squares => ("Square", &["R", "G", "B"]),
+            Self::Direct => ("Direct", &["R", "G", "B"]),
+            Self::Indirect => ("Indirect", &["R", "G", "B"]),
+            Self::Emission => ("Emission", &["R", "G", "B"]),
+        };
+        let alone = components.is_empty().then(|| layer.to_owned());
+        let values: Vec<String> = components.iter().map(|component| format!("{layer}.{component}")).chain(alone).collect();
+        PartChannels::new(layer, &values)
     }
 
     /// True for layers of the surfaces that paths meet, not of light. Their means are over the samples that

@@ -14,7 +14,8 @@ struct LightChoice {
 // A light takes five vec4 of the tables:
 //   (kind and flags; alias threshold; alias; probability of being chosen)
 //   (first point; area or radius), (second; trail), (third; attributes, of a delta light the texture
-//   that it projects, or NONE), (radiance or intensity; material)
+//   that it projects, or NONE), (radiance or intensity; material, of a delta
+//   light its profile, or NONE)
 fn light_word(light: u32, word: u32) -> vec4<f32> {
 #if MOVING_LIGHTS
     let flags = bitcast<u32>(tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS].x);

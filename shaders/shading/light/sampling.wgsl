@@ -64,6 +64,9 @@ fn sample_of_outside(wi: vec3<f32>, radiance: Spectrum, pdf: f32) -> LightSample
     if pdf <= 0.0 {
         return no_light();
     }
+    if HAS_OUTSIDE_UNSEEN {
+        return LightSample(wi, INFINITY_DISTANCE, BLACK, pdf);
+    }
     return LightSample(wi, INFINITY_DISTANCE, radiance, pdf);
 }
 

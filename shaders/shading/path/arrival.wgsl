@@ -65,7 +65,7 @@ fn arrive_through_grids(path: Path, medium: Medium, ray_length: f32, vertex: u32
     let ray = Ray(path.ray.origin - path.way_before * path.ray.direction, path.ray.direction);
     let length_of_ray = min(ray_length + path.way_before, FARTHEST);
     if HAS_MEDIUM_PASSAGE {
-        let emits = HAS_MEDIUM_EMISSION && any(medium.emission != BLACK);
+        let emits = HAS_MEDIUM_EMISSION && (medium.flags & MEDIUM_GIVES_LIGHT) != 0u;
         if emits || !scatters {
             let passage = pass_through(medium, ray, length_of_ray, emits, random.w);
             arrival.radiance = path.throughput * passage.given_off;

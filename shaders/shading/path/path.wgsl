@@ -40,7 +40,7 @@ fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
 
 // Radiance that a path gains where its ray, of this depth, leaves the scene.
 fn escaped_radiance(path: Path, depth: u32) -> Spectrum {
-    if !HAS_ENVIRONMENT || (HAS_HIDDEN_EMITTERS && depth == 1u) {
+    if !HAS_ENVIRONMENT || HAS_OUTSIDE_UNSEEN || (HAS_HIDDEN_EMITTERS && depth == 1u) {
         return BLACK;
     }
     var radiance = path.throughput * outside_radiance(path.ray.direction);

@@ -22,7 +22,7 @@ pub fn layer_images(channels: &[LayerChannel], [width, height]: [u32; 2]) -> Vec
         let (LayerSource::Component(picture, place) | LayerSource::Whole(picture, place)) = &channel.source else { continue };
         let (name, component) = match channel.name.rsplit_once('.') {
             Some((name, _)) => (name, *place),
-            None => (channel.name, 0),
+            None => (&*channel.name, 0),
         };
         if name.to_lowercase().starts_with("crypto") {
             continue;
@@ -62,8 +62,8 @@ mod tests {
     fn channels_become_layers_of_three_numbers() {
         let picture = Arc::new(LayerPicture::new([2, 1]).expect("a temporary file"));
         picture.write_rows(0, &[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]).expect("it is written");
-        let component = |name, place| LayerChannel { name, source: LayerSource::Component(picture.clone(), place) };
-        let count = LayerChannel { name: SAMPLE_COUNT, source: LayerSource::Count };
+        let component = |name: &'static str, place| LayerChannel::new(name, LayerSource::Component(picture.clone(), place));
+        let count = LayerChannel::new(SAMPLE_COUNT, LayerSource::Count);
         let channels =
             [component("N.X", 0), component("N.Y", 1), component("N.Z", 2), count, component("Z", 0), component("A", 1)];
         let layers = layer_images(&channels, [2, 1]);

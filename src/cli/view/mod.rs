@@ -220,8 +220,11 @@ impl Watching<'_> {
         Self { tells_progress: false, asked: Mutex::new(None), ..*self }
     }
 
-    /// Finished rows.
+    /// Finished rows; those of a render that begins again are not shown, for they may lack samples.
     pub fn band(&self, band: &Band) {
+        if self.live.restarts() {
+            return;
+        }
         if let Some(state) = &self.live.state {
             state.rows(band.clone(), self.height, Instant::now());
         }
@@ -246,6 +249,10 @@ impl Observer for Watching<'_> {
 
     fn stop_requested(&self) -> bool {
         self.progress.stop_requested() || self.live.restarts()
+    }
+
+    fn is_abandoned(&self) -> bool {
+        self.live.restarts()
     }
 
     fn wants_rows(&self) -> bool {

@@ -54,7 +54,11 @@ fn scene(size: [u32; 2]) -> Scene {
         let transform = Transform::default();
         scene.shapes.push(Shape { label: "shape".into(), geometry, material, transform, motion: None, portal: false });
     }
-    scene.lights.push(Light::Point(PointLight { position: DVec3::new(-3.0, 4.0, 2.0), intensity: Spectrum::grey(10.0) }));
+    scene.lights.push(Light::Point(PointLight {
+        position: DVec3::new(-3.0, 4.0, 2.0),
+        intensity: Spectrum::grey(10.0),
+        profile: None,
+    }));
     scene
 }
 

@@ -1,5 +1,6 @@
 //! Lights that next event estimation samples, those of [`LightList`] in its order, with the table that chooses among them.
 
+pub mod profile;
 pub mod record;
 mod surface;
 
@@ -22,6 +23,7 @@ use crate::sampling::{AliasTable, HierarchicalWarp, LightCells, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, Scene};
 use crate::spectrum::Spectrum;
+use profile::{PackedProfile, Profiles};
 use record::PORTAL_SHIFT;
 pub use record::{LightKind, PackedLight, PackedWarp, constants};
 use surface::{SurfaceEmission, surface_light};
@@ -59,6 +61,8 @@ pub struct SampledLights {
     pub nodes: Vec<LightNode>,
     /// The table by which they are chosen in cells, of which nothing is known yet; empty where they are chosen otherwise.
     pub cells: Vec<u32>,
+    /// Profiles that lights name.
+    pub profiles: Vec<PackedProfile>,
 }
 
 /// The textures that the scene's lights project, as they are [mentioned](texture::mention); NONE where a light projects none.
@@ -114,11 +118,26 @@ pub fn collect(
     let outside = OutsideLight { mean_luminance: environment.mean_luminance, is_constant: environment.is_constant };
     let areas: Vec<f64> = world.portals.iter().map(WorldPrimitive::area).collect();
     let LightList { sources, sampler } = LightList::new(scene, &surfaces, outside, &areas);
+    let mut profiles = Profiles::default();
+    let mut profile_numbers: HashMap<usize, u32> = HashMap::new();
+    for source in &sources {
+        if let LightSource::Delta(number) = *source
+            && let Some(aimed) = scene.lights[number].profile()
+        {
+            profile_numbers.insert(number, profiles.add(aimed, textures)?);
+        }
+    }
+    let profiles = profiles.records;
     let packed = |source: &LightSource| match *source {
         LightSource::Surface(number) => Some(surface_lights[number]),
         LightSource::Delta(number) => {
             let light = &scene.lights[number];
-            Some(PackedLight::delta(delta_kind(light)?, &light.delta()?, projected_textures[number]))
+            let profile = profile_numbers.get(&number).copied().unwrap_or(NONE);
+            let mut parameters = light.delta()?;
+            if !scene.light_groups.shows(scene.light_groups.of_light(number)) {
+                parameters.color = Spectrum::BLACK;
+            }
+            Some(PackedLight::delta(delta_kind(light)?, &parameters, projected_textures[number], profile))
         }
         LightSource::Environment => Some(PackedLight::at(DVec3::ZERO, Spectrum::BLACK).of_kind(LightKind::Environment)),
         LightSource::Portal(number) => portal_light(&world.portals[number]),
@@ -132,10 +151,10 @@ pub fn collect(
     }
     let local_count = sampler.local_count();
     match LightStrategy::of(scene.render.light_choice, &sampler) {
-        LightStrategy::Power => return Ok(SampledLights { lights, local_count, ..SampledLights::default() }),
+        LightStrategy::Power => return Ok(SampledLights { lights, local_count, profiles, ..SampledLights::default() }),
         LightStrategy::Cells => {
             let cells = LightCells::default().words().to_vec();
-            return Ok(SampledLights { lights, local_count, cells, ..SampledLights::default() });
+            return Ok(SampledLights { lights, local_count, cells, profiles, ..SampledLights::default() });
         }
         LightStrategy::Tree => choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity()),
     }
@@ -149,7 +168,7 @@ pub fn collect(
     for (light, trail) in lights.iter_mut().zip(trails) {
         light.trail = trail;
     }
-    Ok(SampledLights { lights, local_count, nodes, ..SampledLights::default() })
+    Ok(SampledLights { lights, local_count, nodes, profiles, ..SampledLights::default() })
 }
 
 /// Lets lights at infinity, behind `local_count` others, be chosen among themselves.

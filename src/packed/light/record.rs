@@ -127,7 +127,7 @@ pub struct PackedLight {
     /// Radiance of a surface; intensity or irradiance of a delta light; the [`PackedWarp`] of a textured area
     /// light.
     pub radiance: [f32; 3],
-    /// Material of a surface.
+    /// Material of a surface; of a delta light its profile, or NONE.
     pub material: u32,
 }
 
@@ -172,12 +172,12 @@ impl PackedLight {
         Self { kind_and_flags: self.kind_and_flags | kind as u32, ..self }
     }
 
-    /// A delta light that projects this texture, if any.
-    pub(super) fn delta(kind: LightKind, parameters: &LightParameters, texture: u32) -> Self {
+    /// A delta light that projects this texture and has this profile; NONE for either stands for none.
+    pub(super) fn delta(kind: LightKind, parameters: &LightParameters, texture: u32, profile: u32) -> Self {
         let [p1, p2] = parameters.vectors.map(|vector| vector.as_vec3().to_array());
         let (kind_and_flags, size) = (parameters.form << LIGHT_FORM_SHIFT, parameters.number as f32);
         let plain = Self::at(parameters.position, parameters.color);
-        Self { kind_and_flags, size, p1, p2, attributes: texture, ..plain }.of_kind(kind)
+        Self { kind_and_flags, size, p1, p2, attributes: texture, material: profile, ..plain }.of_kind(kind)
     }
 
     /// Number of a delta light's form.
@@ -188,6 +188,11 @@ impl PackedLight {
     /// True of a projection light: a delta light with a texture.
     pub fn projects_texture(&self) -> bool {
         self.is_delta() && self.attributes != NONE
+    }
+
+    /// True of a delta light whose intensity differs from direction to direction by a profile.
+    pub fn has_profile(&self) -> bool {
+        self.is_delta() && self.material != NONE
     }
 
     /// Its radiance is looked up in the whole material.

@@ -27,7 +27,7 @@ pub struct SurfaceEmission {
     two_sided: bool,
     /// The radiance of a blend changes with its weights, that of a texture over the surface: the whole material is looked up.
     varies: bool,
-    /// Radiance of a material without a texture.
+    /// Radiance of a material without a texture, as it is to be seen.
     radiance: ColorInput,
 }
 
@@ -35,12 +35,13 @@ impl SurfaceEmission {
     pub fn of(scene: &Scene, material: usize, two_sided: bool) -> Self {
         let own = scene.materials[material].emission;
         let radiance = own.map_or(ColorInput::grey(0.0), |emission| emission.radiance);
+        let is_seen = scene.light_groups.shows(scene.light_groups.of_material(material));
         Self {
             material,
             mean_radiance: mean_emission(scene, material, &|input| mean_color(scene, input)),
             two_sided,
             varies: scene.materials[material].is_blend() || radiance.is_texture(),
-            radiance,
+            radiance: if is_seen { radiance } else { ColorInput::grey(0.0) },
         }
     }
 

@@ -46,11 +46,18 @@ impl PackedScene {
 
     /// Kernels number the words of an array in 32 bits.
     fn check_lengths(&self) -> Check {
-        let tables: usize =
-            [Array::Materials, Array::BlendParts, Array::Weights, Array::Lights, Array::LightNodes, Array::Textures]
-                .into_iter()
-                .map(|array| array.of(self).len() / 4)
-                .sum();
+        let tables: usize = [
+            Array::Materials,
+            Array::BlendParts,
+            Array::Weights,
+            Array::Lights,
+            Array::LightNodes,
+            Array::LightProfiles,
+            Array::Textures,
+        ]
+        .into_iter()
+        .map(|array| array.of(self).len() / 4)
+        .sum();
         let lengths = [
             ("primitives", 3 * self.primitives.len()),
             ("attributes", 4 * self.attributes.len()),

@@ -168,6 +168,13 @@ impl PackedScene {
     }
 
     pub(super) fn check_lights(&self) -> Check {
+        for (index, profile) in self.light_profiles.iter().enumerate() {
+            let [rows, planes] = profile.sides();
+            let words = rows + planes + rows * planes;
+            if rows < 2 || planes < 1 || !is_within(profile.first_word, words, self.textures.texel_words()) {
+                return Err(format!("profile {index} has {rows} × {planes} candela from {} on", profile.first_word));
+            }
+        }
         for (index, light) in self.lights.iter().enumerate() {
             self.check_light(light).map_err(|message| format!("light {index} {message}"))?;
         }
@@ -257,6 +264,10 @@ impl PackedScene {
         let named = if light.is_delta() { self.textures.textures.len() } else { self.attributes.len() };
         if light.attributes != NONE && light.attributes as usize >= named {
             return Err(format!("has attributes or a texture {} of {named}", light.attributes));
+        }
+        let named = if light.is_delta() { self.light_profiles.len() } else { self.materials.materials.len() };
+        if light.material != NONE && light.material as usize >= named {
+            return Err(format!("has a material or a profile {} of {named}", light.material));
         }
         if is_surface && light.material == NONE {
             return Err("is a surface without a material".to_owned());

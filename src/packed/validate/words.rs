@@ -10,6 +10,7 @@ use crate::packed::bvh4::Node;
 use crate::packed::instance::PackedInstance;
 use crate::packed::layers::PackedLayer;
 use crate::packed::light::PackedLight;
+use crate::packed::light::profile::PackedProfile;
 use crate::packed::material::{BLEND, LAYERED, PackedBlendPart, PackedMaterial, PackedParameter};
 use crate::packed::primitive::Primitive;
 use crate::packed::scene::PackedScene;
@@ -30,11 +31,12 @@ pub enum Array {
     Weights,
     Lights,
     LightNodes,
+    LightProfiles,
     Textures,
 }
 
 impl Array {
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Primitives,
         Self::Attributes,
         Self::Nodes,
@@ -46,6 +48,7 @@ impl Array {
         Self::Weights,
         Self::Lights,
         Self::LightNodes,
+        Self::LightProfiles,
         Self::Textures,
     ];
 
@@ -63,6 +66,7 @@ impl Array {
             Self::Weights => &WEIGHT,
             Self::Lights => &LIGHT,
             Self::LightNodes => &LIGHT_NODE,
+            Self::LightProfiles => &LIGHT_PROFILE,
             Self::Textures => &TEXTURE,
         }
     }
@@ -81,6 +85,7 @@ impl Array {
             Self::Weights => size_of::<PackedBlendWeight>(),
             Self::Lights => size_of::<PackedLight>(),
             Self::LightNodes => size_of::<LightNode>(),
+            Self::LightProfiles => size_of::<PackedProfile>(),
             Self::Textures => size_of::<PackedTexture>(),
         };
         bytes / 4
@@ -100,6 +105,7 @@ impl Array {
             Self::Weights => bytemuck::cast_slice(&scene.materials.weights),
             Self::Lights => bytemuck::cast_slice(&scene.lights),
             Self::LightNodes => bytemuck::cast_slice(&scene.light_nodes),
+            Self::LightProfiles => bytemuck::cast_slice(&scene.light_profiles),
             Self::Textures => bytemuck::cast_slice(&scene.textures.textures),
         }
     }
@@ -194,11 +200,14 @@ const LIGHT: [(usize, Word); 7] = [
     (word!(PackedLight, radiance), CheckedIn(is_warped)),
     (word!(PackedLight, radiance) + 1, CheckedIn(is_warped)),
     (word!(PackedLight, radiance) + 2, CheckedIn(is_warped)),
-    (word!(PackedLight, material), Optional(Array::Materials)),
+    // A profile in delta lights, a material in others.
+    (word!(PackedLight, material), Checked),
 ];
 
 const LIGHT_NODE: [(usize, Word); 2] =
     [(word!(LightCluster, link), Checked), (size_of::<LightCluster>() / 4 + word!(LightCluster, link), Checked)];
+
+const LIGHT_PROFILE: [(usize, Word); 2] = [(word!(PackedProfile, first_word), Checked), (word!(PackedProfile, counts), Checked)];
 
 const TEXTURE: [(usize, Word); 6] = [
     (word!(PackedTexture, kind_and_flags), Checked),

@@ -56,6 +56,8 @@ fn room(from: f64, left: &str, roof: &str) -> String {
         black(0, HALF, [-HALF, 0.0], [HALF, HEIGHT]),
         black(1, -HALF, [from, 0.0], [HALF, HEIGHT]),
         black(1, HALF, [from, 0.0], [HALF, HEIGHT]),
+        // No sky shines from below past the floor.
+        black(2, -0.01, [from, -HALF], [HALF, HALF]),
     ];
     let coats = diffuse(0.5) + &material("black", "type = \"diffuse\"\nreflectance = 0");
     let sky = light("environment", &format!("radiance = {COLOR:?}"));
@@ -85,7 +87,7 @@ fn over(
 }
 
 pub fn tests() -> Vec<Test> {
-    vec![roof_opening(), window(), obstruction()]
+    vec![roof_opening(), roof_glazed(), window(), obstruction()]
 }
 
 const FLOOR: [[f64; 2]; 2] = [[-HALF, -HALF], [HALF, HALF]];
@@ -121,6 +123,34 @@ fn roof_opening() -> Test {
             seen(formulas::polygon(place(s, t), UP, &corners).abs())
         }
     })
+}
+
+/// The opening with a pane in it.
+fn roof_glazed() -> Test {
+    let through = |weight: fn(f64) -> f64| {
+        move |s: f64, t: f64| seen(over(place(s, t), ROOF, |x, y| [x, y, HEIGHT], UP, |direction| weight(direction[2])))
+    };
+    let [[x0, y0], [x1, y1]] = ROOF;
+    let pane = material("pane", "type = \"glass\"\nior = 1.5\nthin = true")
+        + &shape(
+            "rectangle",
+            "pane",
+            &format!("corner = {:?}\nedge_u = {:?}\nedge_v = {:?}", [x0, y0, HEIGHT], [x1 - x0, 0.0, 0.0], [0.0, y1 - y0, 0.0]),
+        );
+    let scene = room(-HALF, &closed_left(), &(around(2, HEIGHT, FLOOR, ROOF) + &pane));
+    Test::of_formula(
+        [
+            "daylight/roof-glazed",
+            "An even sky lights the floor of a black room through a pane of glass in its roof.",
+            "Fresnel 1823, (1 - R)/(1 + R) of a plate for each direction; after CIE 171:2006, sky component under a glazed roof opening",
+        ],
+        // Light that the floor throws back is not followed up to the pane.
+        scene.replace("max_depth = 64", "max_depth = 3"),
+        through(|cosine| 1.0 - formulas::plate(cosine, 1.5)),
+    )
+    .mistake("an opening without a pane", through(|_| 1.0))
+    .mistake("a pane with one surface", through(|cosine| 1.0 - formulas::dielectric(cosine, 1.5)))
+    .mistake("a pane that is passed twice", through(|cosine| (1.0 - formulas::plate(cosine, 1.5)).powi(2)))
 }
 
 fn window() -> Test {

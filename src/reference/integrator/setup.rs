@@ -38,6 +38,18 @@ impl Integrator {
         Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, media, layers, guide: None })
     }
 
+    /// Sees light of one group alone, where the scene says so ([`Scene::in_light_of`]). All that was learned and made ready of all light stays: paths and
+    /// weights are those of the picture.
+    pub fn hide_other_groups(&mut self) {
+        let groups = &self.scene.light_groups;
+        for (id, material) in self.scene.materials.iter_mut().enumerate() {
+            if let Some(emission) = material.emission.as_mut().filter(|_| !groups.shows(groups.of_material(id))) {
+                emission.radiance = ColorInput::grey(0.0);
+            }
+        }
+        self.lights.hide_other_groups(&self.scene);
+    }
+
     /// Draws directions by a guide as well, or by none.
     pub fn set_guide(&mut self, guide: Option<Arc<Guide>>) {
         self.guide = guide;

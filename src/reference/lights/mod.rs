@@ -90,6 +90,12 @@ pub struct Lights {
     /// Index into `lights` by leaf-order index of the primitive.
     of_primitive: Vec<Option<u32>>,
     outside: Outside,
+    /// The light from outside is to be seen.
+    shows_outside: bool,
+    /// By light, the number in the scene of a delta light.
+    delta_numbers: Vec<Option<usize>>,
+    /// By light: it is a delta light that is not to be seen.
+    is_hidden: Vec<bool>,
     /// Index of the environment among the lights, where it is one.
     environment_light: Option<usize>,
     /// Index of the first portal among the lights.
@@ -158,6 +164,12 @@ impl Lights {
             LightSource::Portal(number) => Some(SampledLight::Portal(number)),
         };
         let lights: Vec<SampledLight> = sources.iter().enumerate().filter_map(sampled).collect();
+        let delta_number = |source: &LightSource| match *source {
+            LightSource::Delta(number) => Some(number),
+            _ => None,
+        };
+        let delta_numbers: Vec<Option<usize>> = sources.iter().map(delta_number).collect();
+        let is_hidden = vec![false; delta_numbers.len()];
         let local_count = sampler.local_count();
         let environment_light = sources.iter().position(|source| *source == LightSource::Environment);
         let first_portal = sources.iter().position(|source| matches!(source, LightSource::Portal(_))).unwrap_or(sources.len());
@@ -177,6 +189,9 @@ impl Lights {
             cells,
             of_primitive,
             outside,
+            shows_outside: true,
+            delta_numbers,
+            is_hidden,
             environment_light,
             first_portal,
             lets_through: scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass)),
@@ -261,6 +276,14 @@ impl Lights {
         self.strategy = strategy;
     }
 
+    /// Sees no light but that of surfaces, whose materials say it, and of what the scene shows.
+    pub fn hide_other_groups(&mut self, scene: &Scene) {
+        self.shows_outside = scene.shows_outside();
+        let groups = &scene.light_groups;
+        let is_hidden = |number: &Option<usize>| number.is_some_and(|number| !groups.shows(groups.of_light(number)));
+        self.is_hidden = self.delta_numbers.iter().map(is_hidden).collect();
+    }
+
     /// How lights are chosen.
     pub fn strategy(&self) -> LightStrategy {
         self.strategy
@@ -291,6 +314,11 @@ impl Lights {
             _ => None,
         };
         self.lights.iter().filter_map(outline).max()
+    }
+
+    /// The light from outside the scene is to be seen.
+    pub fn shows_outside(&self) -> bool {
+        self.shows_outside
     }
 
     /// Everything outside the scene.
@@ -354,6 +382,8 @@ impl Lights {
                 let usable = pdf > 0.0 && pdf.is_finite();
                 if usable { sample(direction.wi, distance, radiance, probability * pdf, Some(index)) } else { None }
             }
+            SampledLight::Delta(_) if self.is_hidden[light] => None,
+            SampledLight::Environment | SampledLight::Portal(_) if !self.shows_outside => None,
             SampledLight::Delta(ref light) => {
                 let arriving = light.arriving(reference)?;
                 sample(arriving.wi, arriving.distance, arriving.irradiance, probability, None)

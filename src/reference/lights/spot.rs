@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::delta::{Arriving, DeltaLight};
 use super::projected_picture::ProjectedPicture;
-use crate::scene::{FalloffCurve, Scene, SpotLight};
+use crate::scene::{AimedProfile, FalloffCurve, Scene, SpotLight};
 use crate::spectrum::Spectrum;
 
 #[derive(Debug)]
@@ -16,6 +16,7 @@ pub struct Spot {
     angles: [f64; 2],
     curve: FalloffCurve,
     picture: Option<ProjectedPicture>,
+    profile: Option<AimedProfile>,
 }
 
 pub fn new(light: &SpotLight, scene: &Scene) -> Spot {
@@ -30,39 +31,23 @@ pub fn new(light: &SpotLight, scene: &Scene) -> Spot {
         angles: [light.angle_degrees, light.falloff_degrees].map(f64::to_radians),
         curve: light.curve,
         picture,
+        profile: light.profile.clone(),
     }
 }
 
 impl DeltaLight for Spot {
     fn arriving(&self, point: DVec3) -> Option<Arriving> {
         Arriving::from_position(self.position, point, |direction| {
-            let falloff = falloff(direction.dot(self.axis), self.angles, self.curve);
+            let falloff = self.curve.share(direction.dot(self.axis), self.angles);
             let picture = self.picture.as_ref().filter(|_| falloff > 0.0);
             let color = picture.and_then(|picture| picture.coordinates(direction).map(|uv| picture.color(uv)));
-            self.intensity * falloff * color.unwrap_or(Spectrum::WHITE)
+            let candela = self.profile.as_ref().filter(|_| falloff > 0.0).map_or(1.0, |aimed| aimed.candela(direction));
+            self.intensity * (falloff * candela) * color.unwrap_or(Spectrum::WHITE)
         })
     }
 
     fn position(&self) -> Option<DVec3> {
         Some(self.position)
-    }
-}
-
-/// How much of a spot light's intensity goes in a direction whose cosine with the axis is `cosine`: 1 within the inner angle, 0 past the
-/// outer.
-fn falloff(cosine: f64, angles: [f64; 2], curve: FalloffCurve) -> f64 {
-    let [outer, inner] = angles.map(f64::cos);
-    if cosine >= inner {
-        return 1.0;
-    }
-    if cosine <= outer {
-        return 0.0;
-    }
-    let t = (cosine - outer) / (inner - outer);
-    match curve {
-        FalloffCurve::Smooth => t * t * (3.0 - 2.0 * t),
-        FalloffCurve::Square => t * t,
-        FalloffCurve::Linear => (angles[0] - cosine.acos()) / (angles[0] - angles[1]),
     }
 }
 
@@ -74,15 +59,15 @@ mod tests {
     fn it_is_full_inside_and_ends_at_its_angle() {
         let angles = [60.0_f64, 30.0].map(f64::to_radians);
         for curve in [FalloffCurve::Smooth, FalloffCurve::Square, FalloffCurve::Linear] {
-            let at = |degrees: f64| falloff(degrees.to_radians().cos(), angles, curve);
+            let at = |degrees: f64| curve.share(degrees.to_radians().cos(), angles);
             assert_eq!([at(0.0), at(29.9), at(60.1), at(170.0)], [1.0, 1.0, 0.0, 0.0]);
             // Without a border between them, the light ends sharply.
-            let sharp = |degrees: f64| falloff(degrees.to_radians().cos(), [angles[1]; 2], curve);
+            let sharp = |degrees: f64| curve.share(degrees.to_radians().cos(), [angles[1]; 2]);
             assert_eq!([sharp(29.999), sharp(30.001)], [1.0, 0.0]);
         }
         let middle = 0.5 * (0.5 + 0.75_f64.sqrt());
-        assert!((falloff(middle, angles, FalloffCurve::Smooth) - 0.5).abs() < 1e-12);
-        assert!((falloff(middle, angles, FalloffCurve::Square) - 0.25).abs() < 1e-12);
-        assert!((falloff(45.0_f64.to_radians().cos(), angles, FalloffCurve::Linear) - 0.5).abs() < 1e-12);
+        assert!((FalloffCurve::Smooth.share(middle, angles) - 0.5).abs() < 1e-12);
+        assert!((FalloffCurve::Square.share(middle, angles) - 0.25).abs() < 1e-12);
+        assert!((FalloffCurve::Linear.share(45.0_f64.to_radians().cos(), angles) - 0.5).abs() < 1e-12);
     }
 }

@@ -40,7 +40,11 @@ fn glowing(shapes: Vec<Geometry>) -> (Scene, World) {
     let scene = Scene {
         materials: vec![material],
         shapes: shapes.into_iter().map(shape).collect(),
-        lights: vec![Light::Point(PointLight { position: DVec3::new(0.0, 5.0, 0.0), intensity: Spectrum::grey(3.0) })],
+        lights: vec![Light::Point(PointLight {
+            position: DVec3::new(0.0, 5.0, 0.0),
+            intensity: Spectrum::grey(3.0),
+            profile: None,
+        })],
         ..Scene::default()
     };
     let world = World::new(&scene).expect("the scene is sound");
@@ -393,6 +397,7 @@ fn lights_at_infinity_share_half_of_the_choices() {
         falloff_degrees: 60.0,
         curve: Default::default(),
         picture: None,
+        profile: None,
     }));
     scene.lights.push(Light::Directional(DirectionalLight { direction, irradiance: Spectrum::grey(PI) }));
     let [zenith, horizon, ground] = [Spectrum::WHITE; 3];

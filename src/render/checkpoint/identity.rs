@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::choice::Choice;
 use crate::confidence::IntervalOptions;
-use crate::film::KernelLayer;
+use crate::film::RenderedLayer;
 use crate::output::Provenance;
 
 /// Number of the files' layout.
@@ -61,8 +61,8 @@ impl Identity {
 
     /// The identity of the render of one of its layers.
     #[must_use]
-    pub fn of_layer(mut self, layer: KernelLayer) -> Self {
-        self.0.push(("--aov".to_owned(), layer.name().to_owned()));
+    pub fn of_layer(mut self, layer: &RenderedLayer) -> Self {
+        self.0.push(("--aov".to_owned(), layer.name()));
         self
     }
 

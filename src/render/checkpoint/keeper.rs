@@ -10,8 +10,7 @@ use std::time::{Duration, Instant};
 use super::identity::Identity;
 use super::rows::{self, RowsFile};
 use super::saved::{Refusal, Saved, StepsState};
-use crate::choice::Choice;
-use crate::film::{Band, KernelLayer};
+use crate::film::{Band, RenderedLayer};
 use crate::output::{OutputError, check_target};
 use crate::renderer::state::BatchState;
 
@@ -37,7 +36,7 @@ pub fn path_beside(picture: &Path) -> PathBuf {
 }
 
 /// The place of the state of one of its layers.
-pub fn path_of_layer(picture: &Path, layer: KernelLayer) -> PathBuf {
+pub fn path_of_layer(picture: &Path, layer: &RenderedLayer) -> PathBuf {
     let mut name = path_beside(picture).into_os_string();
     name.push(format!("-{}", layer.name()));
     name.into()

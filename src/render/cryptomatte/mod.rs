@@ -69,7 +69,7 @@ pub fn channel_names() -> impl Iterator<Item = &'static str> {
 /// The channels of mattes whose numbers these pictures hold, three channels each.
 pub fn channels(pictures: &[Arc<LayerPicture>]) -> Vec<LayerChannel> {
     let source = |place: usize| LayerSource::Component(pictures[place / IN_PICTURE].clone(), place % IN_PICTURE);
-    channel_names().enumerate().map(|(place, name)| LayerChannel { name, source: source(place) }).collect()
+    channel_names().enumerate().map(|(place, name)| LayerChannel::new(name, source(place))).collect()
 }
 
 /// The mattes of objects and materials in a region of the picture: first column and row, width and height. None where the observer stopped it.

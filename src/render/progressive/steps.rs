@@ -366,6 +366,10 @@ impl Observer for Offset<'_> {
         self.observer.stop_requested()
     }
 
+    fn is_abandoned(&self) -> bool {
+        self.observer.is_abandoned()
+    }
+
     fn wants_rows(&self) -> bool {
         self.observer.wants_rows()
     }

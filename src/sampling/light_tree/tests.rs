@@ -40,6 +40,7 @@ fn emitters(count: u32) -> Vec<Emitter> {
                     falloff_degrees,
                     curve: Default::default(),
                     picture: None,
+                    profile: None,
                 };
                 Emitter::delta(&parameters(Light::Spot(spot))).expect("it is inside the scene")
             }
@@ -141,7 +142,7 @@ fn near_strong_lights_that_face_a_point_come_first() {
 #[test]
 fn trails_fit_whatever_the_lights() {
     let point_light = |position: DVec3| {
-        let light = PointLight { position, intensity: Spectrum::WHITE };
+        let light = PointLight { position, intensity: Spectrum::WHITE, profile: None };
         Emitter::delta(&parameters(Light::Point(light))).expect("it is inside the scene")
     };
     for emitters in [

@@ -6,6 +6,7 @@ mod features;
 mod flat_lights;
 mod instances;
 mod layers;
+mod light_groups;
 mod light_samples;
 mod lights;
 mod materials;

@@ -94,7 +94,8 @@ fn inward_spheres(cases: &mut Vec<Case>) {
         let mut scene = scene(128, inside());
         let walls = diffuse(&mut scene, 0.5);
         shape(&mut scene, sphere(DVec3::ZERO, 1.0), walls);
-        let light = Light::Point(PointLight { position: DVec3::ZERO, intensity: Spectrum::grey(PI / f64::from(count)) });
+        let light =
+            Light::Point(PointLight { position: DVec3::ZERO, intensity: Spectrum::grey(PI / f64::from(count)), profile: None });
         scene.lights = vec![light; count as usize];
         push(cases, &format!("{count} point lights in a sphere"), &scene, Spectrum::WHITE, &WITH_LIGHT_SAMPLING);
     }

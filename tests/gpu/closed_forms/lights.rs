@@ -69,11 +69,21 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
     ] {
         let mut scene = over_a_floor(4);
         let position = to_light * 2.0;
-        let spot = SpotLight { position, direction: axis, intensity, angle_degrees, falloff_degrees, curve, picture: None };
+        let spot = SpotLight {
+            position,
+            direction: axis,
+            intensity,
+            angle_degrees,
+            falloff_degrees,
+            curve,
+            picture: None,
+            profile: None,
+        };
         scene.lights.push(Light::Spot(spot));
         let expected = intensity * share * cosine(30.0) / 4.0 * ALBEDO / PI;
         push(cases, &format!("spot light, {name}"), &scene, expected, &WITH_LIGHT_SAMPLING);
     }
+    profiles(cases, to_light, intensity);
     // The floor's point is 20 degrees off the axis, to the right or to the left as the light is turned: in the picture 0.5 ± tan 20° / 2 tan 40°.
     let place = 0.5 * 20_f64.to_radians().tan() / 40_f64.to_radians().tan();
     for (side, up) in [(-1.0, DVec3::Z), (1.0, DVec3::NEG_Z)] {
@@ -97,6 +107,7 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
             falloff_degrees,
             curve,
             picture,
+            profile: None,
         }));
         let expected = texel * intensity * cosine(30.0) / 4.0 * ALBEDO / PI;
         push(cases, &format!("picture of a spot light, {side}"), &scene, expected, &WITH_LIGHT_SAMPLING);
@@ -115,6 +126,48 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
     let mut scene = over_a_floor(4);
     scene.lights.push(Light::Directional(DirectionalLight { direction: -to_light, irradiance: intensity }));
     push(cases, "directional light", &scene, intensity * cosine(30.0) * ALBEDO / PI, &WITH_LIGHT_SAMPLING);
+}
+
+/// Lamps 2 above the floor's point, off the vertical by 30 degrees: candela times cosθ/d².
+fn profiles(cases: &mut Vec<Case>, to_light: DVec3, intensity: Spectrum) {
+    let profile = |vertical: &[f64], horizontal: &[f64], candela: &[f64]| {
+        Arc::new(LightProfile::new(vertical.to_vec(), horizontal.to_vec(), candela.to_vec()).expect("it is possible"))
+    };
+    let degrees: Vec<f64> = (0..=90).map(f64::from).collect();
+    let cosines: Vec<f64> = degrees.iter().map(|angle| angle.to_radians().cos()).collect();
+    // The floor's point lies on the side of -X, so many degrees counter-clockwise of the lamp's front, seen from above. No angle of a table is there:
+    // a pixel sees both sides of it.
+    let turned = |degrees: f64| DVec3::new(-degrees.to_radians().cos(), 0.0, -degrees.to_radians().sin());
+    let sides = profile(&[0.0, 60.0], &[0.0, 90.0, 180.0, 270.0, 360.0], &[1.0, 1.0, 1.0, 3.0, 1.0, 5.0, 1.0, 7.0, 1.0, 1.0]);
+    let cosine = 30_f64.to_radians().cos();
+    for (name, profile, front, candela) in [
+        ("even", profile(&[0.0, 180.0], &[0.0], &[2.0, 2.0]), DVec3::X, 2.0),
+        ("of a cosine", profile(&degrees, &[0.0], &cosines), DVec3::X, cosine),
+        ("between two angles", profile(&[0.0, 20.0, 60.0], &[0.0], &[9.0, 4.0, 8.0]), DVec3::X, 5.0),
+        ("20 degrees past its front", sides.clone(), turned(20.0), 1.0 + 2.0 / 9.0),
+        ("45 degrees past its front", sides.clone(), turned(45.0), 1.5),
+        ("110 degrees past its front", sides.clone(), turned(110.0), 2.0 + 2.0 / 9.0),
+        ("200 degrees past its front", sides.clone(), turned(200.0), 3.0 + 2.0 / 9.0),
+        ("290 degrees past its front", sides, turned(290.0), 4.0 - 2.0 / 3.0),
+    ] {
+        let mut scene = over_a_floor(4);
+        let position = to_light * 2.0;
+        let aimed = Some(AimedProfile { profile, nadir: DVec3::NEG_Y, front });
+        scene.lights.push(Light::Point(PointLight { position, intensity, profile: aimed.clone() }));
+        let expected = intensity * candela * cosine / 4.0 * ALBEDO / PI;
+        push(cases, &format!("profile {name}"), &scene, expected, &WITH_LIGHT_SAMPLING);
+        scene.lights = vec![Light::Spot(SpotLight {
+            position,
+            direction: DVec3::NEG_Y,
+            intensity,
+            angle_degrees: 50.0,
+            falloff_degrees: 10.0,
+            curve: FalloffCurve::Linear,
+            picture: None,
+            profile: aimed,
+        })];
+        push(cases, &format!("spot light with a profile {name}"), &scene, expected * 0.5, &WITH_LIGHT_SAMPLING);
+    }
 }
 
 fn map(scene: &mut Scene, width: u32, height: u32, texel: impl Fn(u32, u32) -> f32) {

@@ -430,7 +430,11 @@ pub fn with_normal_maps() -> Vec<Case> {
             let matte = diffuse(&mut scene, 0.6);
             scene.materials[matte].normal_map = Some(0);
             shape(&mut scene, geometry.clone(), matte);
-            scene.lights.push(Light::Point(PointLight { position: wi * distance, intensity: Spectrum::grey(3.0) }));
+            scene.lights.push(Light::Point(PointLight {
+                position: wi * distance,
+                intensity: Spectrum::grey(3.0),
+                profile: None,
+            }));
             let expected = 0.6 / PI * 3.0 * (normal * sign).dot(wi) / (distance * distance);
             // The picture's edge sees the light at another angle, by 10⁻⁵.
             push(&mut cases, &format!("normal map of a {name}, {side}"), &scene, Spectrum::grey(expected), &[Estimator::Mis]);

@@ -6,6 +6,7 @@
 //!   no lat-long map as it stands.
 //! - `mitsuba`, `pbrt`, `gltf`: scenes of other programs, which become entries of scene files by means of `import`; `import_file` tells them apart.
 //! - `scene_file`: a scene file with what it imports.
+//! - `lm_63`: profiles of lamps, from photometric files.
 //! - `volume`: grids of media, from files of OpenVDB, NanoVDB and Mitsuba.
 //! - `place`: where mistakes are reported.
 //! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
@@ -30,6 +31,7 @@ mod gltf;
 mod image_file;
 mod import;
 mod import_file;
+pub(crate) mod lm_63;
 mod memory;
 mod mends;
 mod mitsuba;

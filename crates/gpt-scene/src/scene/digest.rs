@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::image::ImageData;
 use super::light::Light;
+use super::light_groups::LightGroups;
 use super::model::Scene;
 use super::shape::{Geometry, Mesh};
 use super::texture::TextureKind;
@@ -81,6 +82,10 @@ fn finish(mut hash: Sha256, scene: &Scene) -> String {
     }
     debug_assert!(printed.is_ok(), "hashing cannot fail");
     hash_media(&mut hash, &mut rest);
+    if rest.light_groups != LightGroups::default() {
+        let printed = write!(HashWriter(&mut hash), "{:?}", rest.light_groups);
+        debug_assert!(printed.is_ok(), "hashing cannot fail");
+    }
     hash.finalize().iter().fold(String::new(), |mut hexadecimal, byte| {
         let _ = write!(hexadecimal, "{byte:02x}");
         hexadecimal

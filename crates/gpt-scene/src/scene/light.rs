@@ -1,6 +1,7 @@
 //! Lights that are not surfaces, and the table of them.
 
 mod model;
+mod profile;
 mod projected;
 
 use std::f64::consts::PI;
@@ -15,6 +16,7 @@ use super::texture::TextureId;
 use crate::spectrum::Spectrum;
 use model::{DeltaLight, SceneLight, amounts, placed, stands};
 pub use model::{LightParameters, LightStrength};
+pub use profile::{AimedProfile, LightProfile, MOST_ANGLES, ProfileFault, ProfileList};
 pub use projected::{FALLOFF_LINEAR, FALLOFF_SQUARE, FalloffCurve, ProjectedTexture, Projector, SpotLight, picture_turn};
 
 /// The table of lights: a row for each that is not a surface. From these rows every layer makes its list of modules and what chooses among
@@ -201,16 +203,30 @@ impl OutsideLight for Sky {
     }
 }
 
-/// Radiant intensity in W·sr⁻¹, the same in every direction.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Radiant intensity in W·sr⁻¹, the same in every direction unless it has a profile.
+#[derive(Debug, Clone, PartialEq)]
 pub struct PointLight {
     pub position: DVec3,
+    /// With a profile, for each candela of it.
     pub intensity: Spectrum,
+    pub profile: Option<AimedProfile>,
+}
+
+impl PointLight {
+    /// The intensity averaged over all directions.
+    pub fn mean_intensity(&self) -> Spectrum {
+        let mean = |aimed: &AimedProfile| aimed.profile.integral(|_| 1.0, &[]) / (4.0 * PI);
+        self.intensity * self.profile.as_ref().map_or(1.0, mean)
+    }
 }
 
 impl SceneLight for PointLight {
     fn check(&self) -> Check {
         stands(self.position)?;
+        if let Some(aimed) = &self.profile {
+            placed(is_direction(aimed.nadir))?;
+            aimed.check(self.intensity)?;
+        }
         amounts(&[self.intensity])
     }
 
@@ -221,12 +237,22 @@ impl SceneLight for PointLight {
     fn set(&mut self, at: &LightAt) {
         at.place(&mut self.position);
         self.intensity = at.strength.unwrap_or(self.intensity);
+        if let Some(aimed) = &mut self.profile {
+            at.take_along(&mut aimed.nadir);
+            at.take_along(&mut aimed.front);
+        }
+    }
+
+    fn profile(&self) -> Option<&AimedProfile> {
+        self.profile.as_ref()
     }
 }
 
 impl DeltaLight for PointLight {
     fn parameters(&self) -> LightParameters {
-        LightParameters::new(LightStrength::Power(4.0 * PI * self.intensity.luminance()), self.intensity, self.position)
+        let power = 4.0 * PI * self.mean_intensity().luminance();
+        let cone = self.profile.as_ref().and_then(AimedProfile::cone).map(|(axis, end)| (axis, [end; 2]));
+        LightParameters { cone, ..LightParameters::new(LightStrength::Power(power), self.intensity, self.position) }
     }
 }
 
@@ -344,7 +370,10 @@ impl Light {
                 same_radiance && a.rotation_degrees == b.rotation_degrees && a.turn == b.turn && a.rows == b.rows
             }
             (Self::Sky(a), Self::Sky(b)) => a == b,
-            _ => self.delta().is_some() && self.delta() == other.delta() && self.texture() == other.texture(),
+            _ => {
+                let same_look = self.texture() == other.texture() && self.profile() == other.profile();
+                self.delta().is_some() && self.delta() == other.delta() && same_look
+            }
         }
     }
 
@@ -366,5 +395,10 @@ impl Light {
     /// Its picture, if it has one, to read.
     pub fn image(&self) -> Option<&ImageData> {
         self.model().image()
+    }
+
+    /// The profile by which its intensity differs from direction to direction, if it has one.
+    pub fn profile(&self) -> Option<&AimedProfile> {
+        self.model().profile()
     }
 }

@@ -6,8 +6,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::light::{Light, LightStrength};
+use super::light_groups::LightGroupId;
 use super::material::{Material, MaterialId, MaterialKind};
-use super::medium::{Medium, Phase};
+use super::medium::{Medium, MediumId, Phase};
 use super::medium_grids::MediumGrids;
 use super::model::Scene;
 use super::shape::{Geometry, Shape};
@@ -47,20 +48,40 @@ pub struct Filling {
     pub is_light_sampled: bool,
     /// No light is within its bodies, and their surfaces bend all light that goes in or out: no light sample within them finds one.
     pub is_dark: bool,
+    /// The light group of what is given off. Media that differ in it alone are not one.
+    pub light_group: LightGroupId,
 }
 
 impl Filling {
     /// Absorbs and does nothing else.
     fn absorbing(extinction: Spectrum) -> Self {
         let (scattering, emission) = (Spectrum::BLACK, Spectrum::BLACK);
-        Self { extinction, scattering, emission, phase: Phase::isotropic(), grids: None, is_light_sampled: false, is_dark: false }
+        Self {
+            extinction,
+            scattering,
+            emission,
+            phase: Phase::isotropic(),
+            grids: None,
+            is_light_sampled: false,
+            is_dark: false,
+            light_group: 0,
+        }
     }
 
     /// A medium of a scene.
     pub fn of(medium: &Medium) -> Self {
         let Medium { scattering, emission, .. } = *medium;
         let (phase, grids) = (medium.phase.clone(), medium.grids.clone());
-        Self { extinction: medium.extinction(), scattering, emission, phase, grids, is_light_sampled: false, is_dark: false }
+        Self {
+            extinction: medium.extinction(),
+            scattering,
+            emission,
+            phase,
+            grids,
+            is_light_sampled: false,
+            is_dark: false,
+            light_group: 0,
+        }
     }
 
     /// Attenuation per unit length and density by which places are drawn where light passes and is not scattered.
@@ -98,8 +119,9 @@ impl Media {
     /// The media of a scene: those that its materials enclose, those below surfaces, absorbing bodies of glass, and where there are some, a clear one for all other bodies
     /// that let light in through a boundary: within another body they take its place. A blend has the medium of the first part that is not clear.
     pub fn of(scene: &Scene) -> Self {
+        let of_scene = |id: MediumId| Filling { light_group: scene.light_groups.of_medium(id), ..Filling::of(&scene.media[id]) };
         let own = |material: &Material| match (&material.kind, material.interior) {
-            (_, Some(id)) => Some(Filling::of(&scene.media[id])),
+            (_, Some(id)) => Some(of_scene(id)),
             (MaterialKind::Principled(principled), None) if principled.attenuation.is_some() => {
                 principled.attenuation.map(|attenuation| Filling::absorbing(attenuation.extinction()))
             }
@@ -115,7 +137,7 @@ impl Media {
             _ => None,
         };
         let inside: Vec<Option<Filling>> = scene.materials.iter().map(own).collect();
-        let around_camera = scene.camera_medium.map(|id| Filling::of(&scene.media[id]));
+        let around_camera = scene.camera_medium.map(of_scene);
         if inside.iter().flatten().chain(&around_camera).all(Filling::is_clear) {
             return Self::default();
         }

@@ -24,6 +24,10 @@ pub enum MeterKind {
     Irradiance { position: DVec3, normal: DVec3 },
     /// The mean of that over a rectangle, whose edges have a right angle between them. Its front is where u × v points.
     IrradianceOfRectangle { corner: DVec3, edge_u: DVec3, edge_v: DVec3 },
+    /// The mean of that over a disk.
+    IrradianceOfDisk { center: DVec3, normal: DVec3, radius: f64 },
+    /// The mean of that over the outside of a sphere.
+    IrradianceOfSphere { center: DVec3, radius: f64 },
     /// Light along one ray, W·m⁻²·sr⁻¹.
     Radiance { position: DVec3, direction: DVec3 },
     /// Light along parallel rays that come from outside the scene, in a square window of this size about the target; one ray where that is 0.
@@ -34,7 +38,10 @@ impl MeterKind {
     /// The type in scene files.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Irradiance { .. } | Self::IrradianceOfRectangle { .. } => "irradiance",
+            Self::Irradiance { .. }
+            | Self::IrradianceOfRectangle { .. }
+            | Self::IrradianceOfDisk { .. }
+            | Self::IrradianceOfSphere { .. } => "irradiance",
             Self::Radiance { .. } => "radiance",
             Self::Distant { .. } => "distant",
         }
@@ -49,12 +56,16 @@ impl MeterKind {
         if self.is_of_irradiance() { "lx" } else { "cd/m²" }
     }
 
-    fn is_of_irradiance(&self) -> bool {
-        matches!(self, Self::Irradiance { .. } | Self::IrradianceOfRectangle { .. })
+    pub(super) fn is_of_irradiance(&self) -> bool {
+        !matches!(self, Self::Radiance { .. } | Self::Distant { .. })
     }
 
-    /// The quantity over the mean of the picture that the meter sees.
+    /// The quantity over the mean of the picture that the meter sees. Round ones fill a circle of the square picture, π/4 of it.
     pub fn factor(&self) -> f64 {
-        if self.is_of_irradiance() { PI } else { 1.0 }
+        match self {
+            Self::Irradiance { .. } | Self::IrradianceOfRectangle { .. } => PI,
+            Self::IrradianceOfDisk { .. } | Self::IrradianceOfSphere { .. } => 4.0,
+            Self::Radiance { .. } | Self::Distant { .. } => 1.0,
+        }
     }
 }

@@ -19,6 +19,8 @@ mod import_report;
 mod instance;
 pub mod light;
 mod light_at;
+pub mod light_groups;
+mod light_of_groups;
 pub mod material;
 pub mod media;
 pub mod medium;
@@ -52,9 +54,10 @@ pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};
 pub use instance::{Group, Instances, is_singular};
 pub use light::{
-    DirectionalLight, Environment, EnvironmentRadiance, FalloffCurve, Light, LightParameters, LightStrength, MapRows,
-    OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
+    AimedProfile, DirectionalLight, Environment, EnvironmentRadiance, FalloffCurve, Light, LightParameters, LightProfile,
+    LightStrength, MapRows, OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
+pub use light_groups::{LightGroupId, LightGroups};
 pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, LayerModel, LayerStack, LobeKind,
     LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets,

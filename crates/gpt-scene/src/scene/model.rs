@@ -9,6 +9,7 @@ use super::camera::Camera;
 use super::import_report::ImportReport;
 use super::instance::{Group, Instances};
 use super::light::{Environment, EnvironmentRadiance, Light};
+use super::light_groups::LightGroups;
 use super::material::{Material, MaterialId, MaterialKind};
 use super::medium::{Medium, MediumId};
 use super::meter::Meter;
@@ -57,6 +58,9 @@ pub struct Scene {
     /// Lights that are not surfaces. Surfaces emit through their material.
     #[doc(hidden)]
     pub lights: Vec<Light>,
+    /// The names under which light of some emitters is kept apart.
+    #[doc(hidden)]
+    pub light_groups: LightGroups,
     /// Places where light is measured.
     #[doc(hidden)]
     pub meters: Vec<Meter>,

@@ -95,6 +95,6 @@ mod tests {
             assert!(corner.as_dvec3().distance(expected(before.as_dvec3())) < 1e-6, "{corner} {before}");
         }
         assert!(moved.shapes[0].origin().distance(expected(DVec3::new(-1e7, 0.0, 0.0))) < 1e-6);
-        assert!(matches!(moved.lights[0], Light::Point(light) if light.position == expected(DVec3::Y * 2.0)));
+        assert!(matches!(&moved.lights[0], Light::Point(light) if light.position == expected(DVec3::Y * 2.0)));
     }
 }

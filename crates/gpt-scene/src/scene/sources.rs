@@ -7,15 +7,17 @@ use std::sync::{Arc, Weak};
 use glam::DAffine3;
 
 use super::image::{ColorSpace, ImageData};
+use super::light::LightProfile;
 use super::shape::Mesh;
 use super::volume::VoxelGrid;
 
-/// The files that a scene's meshes, pictures and grids were read from. What was changed since, or made by a program, has none.
+/// The files that a scene's meshes, pictures, grids and profiles of lights were read from. What was changed since, or made by a program, has none.
 #[derive(Debug, Clone, Default)]
 pub struct Sources {
     images: HashMap<usize, (Weak<ImageData>, ImageSource)>,
     meshes: HashMap<usize, (Weak<Mesh>, MeshSource)>,
     grids: HashMap<usize, (Weak<VoxelGrid>, GridSource)>,
+    profiles: HashMap<usize, (Weak<LightProfile>, PathBuf)>,
     /// Pictures that cannot be read, by the names of the textures that show a colour in their place.
     unreadable: HashMap<String, ImageSource>,
 }
@@ -71,6 +73,10 @@ impl Sources {
         self.grids.insert(address(grid), (Arc::downgrade(grid), source));
     }
 
+    pub fn add_profile(&mut self, profile: &Arc<LightProfile>, path: PathBuf) {
+        self.profiles.insert(address(profile), (Arc::downgrade(profile), path));
+    }
+
     /// The file of a picture.
     pub fn image(&self, image: &Arc<ImageData>) -> Option<&ImageSource> {
         self.images.get(&address(image)).map(|(_, source)| source)
@@ -91,12 +97,18 @@ impl Sources {
         self.grids.get(&address(grid)).map(|(_, source)| source)
     }
 
+    /// The file of a light's profile.
+    pub fn profile(&self, profile: &Arc<LightProfile>) -> Option<&Path> {
+        self.profiles.get(&address(profile)).map(|(_, path)| path.as_path())
+    }
+
     /// Every file that something of the scene came from.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let images = self.images.values().filter(|(_, source)| source.embedded.is_none());
         let images = images.map(|(_, source)| source.path.as_path());
         let meshes = self.meshes.values().map(|(_, source)| source.path.as_path());
-        images.chain(meshes).chain(self.grids.values().map(|(_, source)| source.path.as_path()))
+        let profiles = self.profiles.values().map(|(_, path)| path.as_path());
+        images.chain(meshes).chain(self.grids.values().map(|(_, source)| source.path.as_path())).chain(profiles)
     }
 }
 

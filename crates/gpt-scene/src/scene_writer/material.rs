@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::animation;
 use super::needed::named_texture;
-use crate::load::file::write_kind;
 use crate::load::file::writer::{Writer, flag, line, number, text};
+use crate::load::file::{write_kind, write_light_group};
 use crate::scene::{Emission, Material, MaterialId, MaterialKind, Relief};
 
 pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
@@ -35,6 +35,7 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
         None if emits => out += &line("radiance", "0"),
         None => {}
     }
+    out += &write_light_group(writer.scene.light_groups.of_material(id), writer);
     if let Some(medium) = material.interior {
         out += &line("interior", &writer.media.quoted(medium));
     }

@@ -6,6 +6,9 @@
 #import shading/texture/coordinates.wgsl
 #import shading/texture/texture.wgsl
 #import shading/light/projected_picture.wgsl
+#if LIGHT_PROFILES
+#import shading/light/profile.wgsl
+#endif
 
 // The intensity where t is `t` of the way from the outer angle to the inner one: Hermite's smooth step unless the light's form says otherwise.
 fn spot_step(t: f32, kind_and_flags: u32) -> f32 {
@@ -52,7 +55,14 @@ fn sample_spot_light(light: u32, reference: vec3<f32>, pmf: f32) -> LightSample 
     let word2 = light_word(light, 2u);
     let word3 = light_word(light, 3u);
     let falloff = spot_falloff(wi, word2.xyz, word3.xy, bitcast<u32>(light_word(light, 0u).x));
-    var intensity = light_word(light, 4u).xyz * falloff;
+    let word4 = light_word(light, 4u);
+    var intensity = word4.xyz * falloff;
+#if LIGHT_PROFILES
+    let profile = bitcast<u32>(word4.w);
+    if profile != NONE && falloff > 0.0 {
+        intensity *= profile_candela(profile, wi);
+    }
+#endif
 #if LIGHT_TEXTURES
     let texture = bitcast<u32>(word3.w);
     if texture != NONE && falloff > 0.0 {

@@ -358,6 +358,9 @@ impl Kernel<'_> {
                 let [attributes, material] = [self.light_word(light, 3)?[3], self.light_word(light, 4)?[3]];
                 // The picture of a projection light.
                 if LightKind::DELTA.iter().any(|&kind| kind as u32 == flags & 255) {
+                    if material != NONE {
+                        self.light_profile(material)?;
+                    }
                     let texture = self.light_word(light, 3)?[3];
                     if texture != NONE {
                         self.texture(texture)?;
@@ -376,6 +379,21 @@ impl Kernel<'_> {
             }
         }
         Ok(())
+    }
+
+    /// shading/light/profile.wgsl: every angle, and all candela between any of them.
+    fn light_profile(&self, profile: u32) -> Read<()> {
+        let at = self.tables.first_light_profile.wrapping_add(profile.wrapping_mul(2));
+        let [first, counts] = [self.table(at)?[3], self.table(at.wrapping_add(1))?[3]];
+        let [rows, planes] = [counts & 0xffff, counts >> 16];
+        if rows < 2 {
+            return Err(format!("a profile of {rows} vertical angles"));
+        }
+        let candela = rows.wrapping_add(planes);
+        (0..candela.wrapping_add(rows.wrapping_mul(planes)))
+            .try_for_each(|word| self.texel(first.wrapping_add(word)).map(drop))?;
+        // Kernels read the first plane even of none.
+        (0..rows).try_for_each(|row| self.texel(first.wrapping_add(candela).wrapping_add(row)).map(drop))
     }
 
     /// shading/light/choice/tree.wgsl: every way down, and the choice among lights at infinity.

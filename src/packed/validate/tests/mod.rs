@@ -29,6 +29,7 @@ fn words_mut(scene: &mut PackedScene, array: Array) -> &mut [u32] {
         Array::Weights => bytemuck::cast_slice_mut(&mut scene.materials.weights),
         Array::Lights => bytemuck::cast_slice_mut(&mut scene.lights),
         Array::LightNodes => bytemuck::cast_slice_mut(&mut scene.light_nodes),
+        Array::LightProfiles => bytemuck::cast_slice_mut(&mut scene.light_profiles),
         Array::Textures => bytemuck::cast_slice_mut(&mut scene.textures.textures),
     }
 }
@@ -241,7 +242,7 @@ fn cut_last<T>(array: &mut Vec<T>) {
 
 #[test]
 fn arrays_cut_short_are_refused_where_something_names_their_end() {
-    let cuts: [fn(&mut PackedScene); 15] = [
+    let cuts: [fn(&mut PackedScene); 16] = [
         |scene| scene.primitives.truncate(1),
         |scene| cut_last(&mut scene.attributes),
         |scene| cut_last(&mut scene.hierarchy.nodes),
@@ -254,6 +255,7 @@ fn arrays_cut_short_are_refused_where_something_names_their_end() {
         |scene| cut_last(&mut scene.materials.weights),
         |scene| cut_last(&mut scene.lights),
         |scene| cut_last(&mut scene.light_nodes),
+        |scene| cut_last(&mut scene.light_profiles),
         |scene| cut_last(&mut scene.textures.textures),
         |scene| cut_last(&mut scene.textures.words),
         |scene| cut_last(&mut scene.motions),

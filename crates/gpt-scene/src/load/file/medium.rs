@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::colour::Rgb;
+use super::light_group::LightGroupName;
 use super::resolver::Resolver;
 use super::value::{Checked, Fraction, GasTemperature, LARGEST, Located, MeanCosine, NonNegative, Positive};
 use super::volume::{VolumeEntry, write_volume};
@@ -22,7 +23,7 @@ use crate::spectrum::Spectrum;
 #[schemars(rename = "MediumEntry", extend(
     "dependentRequired" = {
         "albedo": ["mean_free_path"], "albedo_grid": ["density", "mean_free_path"], "emission_grid": ["density", "emission"],
-        "temperature": ["density", "emission"],
+        "temperature": ["density", "emission"], "light_group": ["emission"],
     },
     "allOf" = [
         { "if": { "required": ["mean_free_path"] }, "then": { "anyOf": [{ "required": ["albedo"] }, { "required": ["albedo_grid"] }] } },
@@ -55,6 +56,8 @@ pub struct MediumEntry {
     /// With `density`, in place of `emission_grid`: a grid of temperatures in kelvin. A black body's light is given off, whose brightest channel where
     /// the grid is hottest is `emission`.
     pub temperature: Option<Box<Located<VolumeEntry>>>,
+    /// With `emission`: the light group in which `--aov groups` keeps what is given off apart; "rest" when left out.
+    pub light_group: Option<Located<LightGroupName>>,
 }
 
 /// A phase function.

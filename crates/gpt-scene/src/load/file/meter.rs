@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::resolver::Resolver;
-use super::value::{Checked, Exactly, Located, NonNegative, Vector, vector};
+use super::value::{Checked, Exactly, Located, NonNegative, Positive, Vector, vector};
 use super::writer::{self, Writer, line, text};
 use crate::load::error::SceneError;
 use crate::load::place::Place;
@@ -21,24 +21,34 @@ pub enum MeterEntry {
     Distant(DistantKeys),
 }
 
-/// Light from the hemisphere about a normal, in W·m⁻²: at a point, or on average over a rectangle.
+/// Light from the hemisphere about a normal, in W·m⁻²: at a point, or on average over a disk, a rectangle, or the outside of a sphere.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "IrradianceMeter", extend("oneOf" = [
-    { "required": ["position", "normal"], "not": { "anyOf": [{ "required": ["corner"] }, { "required": ["edge_u"] }, { "required": ["edge_v"] }] } },
-    { "required": ["corner", "edge_u", "edge_v"], "not": { "anyOf": [{ "required": ["position"] }, { "required": ["normal"] }] } },
+    { "required": ["position", "normal"], "not": { "anyOf": [
+        { "required": ["corner"] }, { "required": ["edge_u"] }, { "required": ["edge_v"] }, { "required": ["center"] }, { "required": ["radius"] },
+    ] } },
+    { "required": ["corner", "edge_u", "edge_v"], "not": { "anyOf": [
+        { "required": ["position"] }, { "required": ["normal"] }, { "required": ["center"] }, { "required": ["radius"] },
+    ] } },
+    { "required": ["center", "radius"], "not": { "anyOf": [
+        { "required": ["position"] }, { "required": ["corner"] }, { "required": ["edge_u"] }, { "required": ["edge_v"] },
+    ] } },
 ]))]
 pub struct IrradianceKeys {
     pub name: Located<String>,
     /// The point.
     pub position: Option<Vector>,
-    /// Which way it faces, of any length.
+    /// Which way the point or the disk faces, of any length.
     pub normal: Option<Located<Vector>>,
     /// A corner of a rectangle.
     pub corner: Option<Vector>,
     /// Its edges, with a right angle between them. It faces where u × v points.
     pub edge_u: Option<Vector>,
     pub edge_v: Option<Located<Vector>>,
+    /// The middle of a disk, which has a `normal`, or of a sphere.
+    pub center: Option<Vector>,
+    pub radius: Option<Checked<Positive>>,
     /// A `[[medium]]` that the meter is within; that of the camera when left out.
     pub medium: Option<Located<String>>,
 }
@@ -99,7 +109,9 @@ impl MeterEntry {
         let normal = |along: &mut Vector| Exactly::of((normals * vector(*along)).to_array()).map(|turned| *along = turned);
         match self {
             Self::Irradiance(keys) => {
-                [&mut keys.position, &mut keys.corner].into_iter().flatten().try_for_each(point)?;
+                [&mut keys.position, &mut keys.corner, &mut keys.center].into_iter().flatten().try_for_each(point)?;
+                let scale = map.matrix3.determinant().abs().cbrt();
+                keys.radius = keys.radius.map(|radius| Checked::of(radius.0 * scale)).transpose()?;
                 keys.normal.iter_mut().try_for_each(|turned| normal(&mut turned.value))?;
                 keys.edge_u.iter_mut().chain(keys.edge_v.iter_mut().map(|located| &mut located.value)).try_for_each(edge)
             }
@@ -150,11 +162,12 @@ impl Resolver<'_> {
     }
 
     fn irradiance(&self, keys: &IrradianceKeys, place: &Place) -> Result<MeterKind, SceneError> {
-        match (keys.position, &keys.normal, keys.corner, keys.edge_u, &keys.edge_v) {
-            (Some(position), Some(normal), None, None, None) => {
+        let IrradianceKeys { position, normal, corner, edge_u, edge_v, center, radius, .. } = keys;
+        match (position, normal, corner, edge_u, edge_v, center, radius) {
+            (&Some(position), Some(normal), None, None, None, None, None) => {
                 Ok(MeterKind::Irradiance { position: vector(position), normal: self.unit(normal, "normal")? })
             }
-            (None, None, Some(corner), Some(edge_u), Some(edge_v)) => {
+            (None, None, &Some(corner), &Some(edge_u), Some(edge_v), None, None) => {
                 let (corner, edge_u, v) = (vector(corner), vector(edge_u), vector(edge_v.value));
                 let is_right = edge_u.length() > 0.0 && v.length() > 0.0 && edge_u.normalize().dot(v.normalize()).abs() < 1e-6;
                 if !is_right {
@@ -162,8 +175,16 @@ impl Resolver<'_> {
                 }
                 Ok(MeterKind::IrradianceOfRectangle { corner, edge_u, edge_v: v })
             }
+            (None, Some(normal), None, None, None, &Some(center), Some(radius)) => {
+                let normal = self.unit(normal, "normal")?;
+                Ok(MeterKind::IrradianceOfDisk { center: vector(center), normal, radius: radius.0 })
+            }
+            (None, None, None, None, None, &Some(center), Some(radius)) => {
+                Ok(MeterKind::IrradianceOfSphere { center: vector(center), radius: radius.0 })
+            }
             _ => {
-                let message = "a meter of irradiance has `position` and `normal`, or `corner`, `edge_u` and `edge_v`";
+                let message = "a meter of irradiance has `position` and `normal` (a point); `corner`, `edge_u` and `edge_v` (a rectangle); \
+                               `center`, `normal` and `radius` (a disk); or `center` and `radius` (a sphere)";
                 Err(self.error(place, message))
             }
         }
@@ -184,6 +205,10 @@ pub fn write(meter: &Meter, writer: &Writer<'_>) -> String {
         MeterKind::IrradianceOfRectangle { corner, edge_u, edge_v } => {
             vector("corner", corner) + &vector("edge_u", edge_u) + &vector("edge_v", edge_v)
         }
+        MeterKind::IrradianceOfDisk { center, normal, radius } => {
+            vector("center", center) + &direction("normal", normal) + &line("radius", &writer::number(radius))
+        }
+        MeterKind::IrradianceOfSphere { center, radius } => vector("center", center) + &line("radius", &writer::number(radius)),
         MeterKind::Radiance { position, direction: along } => vector("position", position) + &direction("direction", along),
         MeterKind::Distant { direction: along, target, size } => {
             direction("direction", along) + &vector("target", target) + &line("size", &writer::number(size))

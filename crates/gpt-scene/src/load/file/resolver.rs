@@ -21,6 +21,7 @@ use crate::load::place::Place;
 use crate::load::volume::PlacedGrid;
 use crate::picture_file::Hints;
 use crate::scene::animation::Deformation;
+use crate::scene::light::LightProfile;
 use crate::scene::texture::{KnownRanges, range_of_texture};
 use crate::scene::{
     Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, MediumId, Mesh, Scene, TextureId,
@@ -82,6 +83,7 @@ pub struct Resolver<'a> {
     pub(super) linear_textures: Vec<bool>,
     pub(super) mesh_files: HashMap<MeshFileKey, LoadedMesh>,
     pub(super) grids: HashMap<GridKey, PlacedGrid>,
+    pub(super) profiles: HashMap<PictureSource, Arc<LightProfile>>,
     /// True, for each material asked for so far, where it or a part of it looks up a texture.
     textured: Vec<bool>,
     ranges: RefCell<KnownRanges>,
@@ -108,6 +110,7 @@ impl<'a> Resolver<'a> {
             linear_textures: Vec::new(),
             mesh_files: HashMap::new(),
             grids: HashMap::new(),
+            profiles: HashMap::new(),
             textured: Vec::new(),
             ranges: RefCell::default(),
             deformation: None,

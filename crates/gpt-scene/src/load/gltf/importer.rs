@@ -33,6 +33,8 @@ pub struct Importer<'a> {
     pub materials: HashMap<Option<usize>, MadeMaterial>,
     pub textures: HashMap<TextureKey, String>,
     pub pictures: HashMap<usize, FileOr<EmbeddedFile>>,
+    /// Profiles of lights, by their index.
+    pub profiles: HashMap<usize, FileOr<EmbeddedFile>>,
     /// Primitives that no node deforms, by mesh and index in it.
     pub meshes: HashMap<(usize, usize), MadePrimitive>,
     /// Weights of morph targets at frames, by node.

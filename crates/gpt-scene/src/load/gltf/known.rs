@@ -76,8 +76,9 @@ macro_rules! objects {
 }
 
 /// Extensions that are read, and whether they are about the picture; what of them is not exact is in the report.
-pub const EXTENSIONS: [(&str, Role); 31] = [
+pub const EXTENSIONS: [(&str, Role); 32] = [
     ("KHR_lights_punctual", Role::Read),
+    ("EXT_lights_ies", Role::Read),
     ("KHR_texture_transform", Role::Read),
     ("KHR_mesh_quantization", Role::Read),
     ("EXT_meshopt_compression", Role::Read),
@@ -132,7 +133,7 @@ objects! {
         list("animations", &ANIMATION),
         read("extensionsUsed"),
         read("extensionsRequired"),
-    ] with "KHR_lights_punctual": LIGHTS, "KHR_materials_variants": VARIANTS;
+    ] with "KHR_lights_punctual": LIGHTS, "EXT_lights_ies": PROFILES, "KHR_materials_variants": VARIANTS;
     ASSET [read("version"), read("minVersion"), aside("generator"), aside("copyright")];
     SCENE [read("nodes")];
     NODE [
@@ -145,8 +146,9 @@ objects! {
         read("scale"),
         read("translation"),
         read("weights"),
-    ] with "KHR_lights_punctual": LIGHT_OF_NODE, "EXT_mesh_gpu_instancing": INSTANCES, "KHR_node_visibility": VISIBILITY;
+    ] with "KHR_lights_punctual": LIGHT_OF_NODE, "EXT_lights_ies": PROFILE_OF_NODE, "EXT_mesh_gpu_instancing": INSTANCES, "KHR_node_visibility": VISIBILITY;
     LIGHT_OF_NODE [read("light")];
+    PROFILE_OF_NODE [read("light"), read("multiplier"), read("color")];
     INSTANCES [key("attributes", Role::Read, Holds::Object(&INSTANCE_ATTRIBUTES))];
     INSTANCE_ATTRIBUTES [read("TRANSLATION"), read("ROTATION"), read("SCALE")];
     VISIBILITY [read("visible")];
@@ -300,6 +302,8 @@ objects! {
     POINTER [aside("pointer")];
     ANIMATION_SAMPLER [read("input"), read("interpolation"), read("output")];
     LIGHTS [list("lights", &LIGHT)];
+    PROFILES [list("lights", &PROFILE)];
+    PROFILE [read("uri"), read("bufferView"), aside("mimeType")];
     LIGHT [read("type"), read("color"), read("intensity"), read("range"), object("spot", &CONE)];
     CONE [read("innerConeAngle"), read("outerConeAngle")];
     VARIANTS [list("variants", &VARIANT)];

@@ -42,15 +42,24 @@ impl Importer<'_> {
         let position = Exactly::of(map.translation.to_array())?;
         let (direction, strength) = (place.at(Exactly::of(direction.to_array())?), Rgb::of(colour)?);
         let entry = match light.r#type.as_str() {
-            "point" => {
-                LightEntry::Point(point::Keys { position, intensity: strength, keyframes: None, interpolation: None, node: None })
-            }
+            "point" => LightEntry::Point(point::Keys {
+                position,
+                intensity: strength,
+                profile: None,
+                direction: None,
+                front: None,
+                keyframes: None,
+                interpolation: None,
+                node: None,
+                light_group: None,
+            }),
             "directional" => LightEntry::Directional(directional::Keys {
                 direction,
                 irradiance: strength,
                 keyframes: None,
                 interpolation: None,
                 node: None,
+                light_group: None,
             }),
             "spot" => {
                 let cone = light.spot.clone().unwrap_or_default();
@@ -78,9 +87,12 @@ impl Importer<'_> {
                     curve: Some(spot::CurveName::Square),
                     texture: None,
                     up: None,
+                    profile: None,
+                    front: None,
                     keyframes: None,
                     interpolation: None,
                     node: None,
+                    light_group: None,
                 })
             }
             other => {

@@ -13,6 +13,7 @@ mod importer;
 mod json;
 mod known;
 mod light;
+mod light_profile;
 mod lookup;
 mod made;
 mod material;
@@ -70,6 +71,7 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
         materials: HashMap::new(),
         textures: HashMap::new(),
         pictures: HashMap::new(),
+        profiles: HashMap::new(),
         meshes: HashMap::new(),
         triangles: 0,
         weight_tracks: HashMap::new(),

@@ -104,6 +104,7 @@ impl Importer<'_> {
             }
             let first = self.scene.file.light.len();
             self.light(node, map, index).map_err(of_node)?;
+            self.light_with_profile(node, map, index).map_err(of_node)?;
             if let Some(name) = name {
                 for light in &mut self.scene.file.light[first..] {
                     let place = light.place.clone();

@@ -35,9 +35,13 @@ impl Converter<'_> {
                 LightEntry::Point(point::Keys {
                     position: vector(plugin, position)?,
                     intensity: rgb(plugin, intensity)?,
+                    profile: None,
+                    direction: None,
+                    front: None,
                     keyframes: None,
                     interpolation: None,
                     node: None,
+                    light_group: None,
                 })
             }
             "spot" => LightEntry::Spot(self.spot(plugin)?),
@@ -89,6 +93,7 @@ impl Converter<'_> {
                 zenith: rgb(plugin, Spectrum::new(0.03, 0.05, 0.1))?,
                 horizon: rgb(plugin, Spectrum::new(0.09, 0.11, 0.13))?,
                 ground: rgb(plugin, Spectrum::grey(0.02))?,
+                light_group: None,
             };
             self.scene.file.light.push(place.at(LightEntry::Sky(keys)));
         }
@@ -170,9 +175,12 @@ impl Converter<'_> {
             curve: (beam < cutoff).then_some(spot::CurveName::Linear),
             up: Some(up).filter(|_| texture.is_some()),
             texture,
+            profile: None,
+            front: None,
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         })
     }
 
@@ -195,6 +203,7 @@ impl Converter<'_> {
             vfov: plugin.possible(Checked::of(2.0 * (half_width / aspect).atan().to_degrees()))?,
             aspect: Some(plugin.possible(Checked::of(aspect))?),
             texture,
+            light_group: None,
         })
     }
 
@@ -246,6 +255,7 @@ impl Converter<'_> {
             rows: Some(environment::Rows::ToPoles),
             keyframes: None,
             interpolation: None,
+            light_group: None,
         })
     }
 }
@@ -273,6 +283,7 @@ fn sun(plugin: &Plugin, direction: DVec3, irradiance: Spectrum) -> Result<LightE
         keyframes: None,
         interpolation: None,
         node: None,
+        light_group: None,
     }))
 }
 

@@ -8,7 +8,8 @@ use super::converter::Converter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::file::meter::{DistantKeys, IrradianceKeys, MeterEntry, RadianceKeys};
-use crate::load::file::value::{Exactly, Vector};
+use crate::load::file::value::{Checked, Exactly, Vector};
+use crate::load::import::is_uniform;
 
 /// True of sensors that are meters.
 pub fn is_meter(sensor: &Plugin) -> bool {
@@ -58,25 +59,56 @@ impl Converter<'_> {
         let sensors: Vec<Rc<Plugin>> = shape.children_of("sensor").into_iter().cloned().collect();
         for sensor in &sensors {
             visit(sensor);
-            if sensor.name != "irradiancemeter" || shape.name != "rectangle" {
+            let measures = matches!(shape.name.as_str(), "rectangle" | "disk" | "sphere") && sensor.name == "irradiancemeter";
+            if !measures {
                 let what = format!("sensor `{}` on a shape of type `{}`", sensor.name, shape.name);
-                self.drop(sensor, &what, "it is left out; meters of irradiance stand on rectangles");
+                self.drop(sensor, &what, "it is left out; meters of irradiance stand on rectangles, disks and spheres");
                 continue;
             }
-            let [mut edge_u, mut edge_v] = [DVec3::X, DVec3::Y].map(|edge| map.transform_vector3(2.0 * edge));
-            if shape.flag("flip_normals", false)? {
-                std::mem::swap(&mut edge_u, &mut edge_v);
+            let [along_x, along_y, along_z] = [map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis];
+            let flipped = shape.flag("flip_normals", false)?;
+            let inside_out = shape.name == "sphere" && flipped != (map.matrix3.determinant() < 0.0);
+            if shape.name != "rectangle" && !is_uniform(&map) || inside_out {
+                let fault = if inside_out { "turned inside out" } else { "stretched" };
+                let what = format!("sensor `irradiancemeter` on a {} that is {fault}", shape.name);
+                self.drop(
+                    sensor,
+                    &what,
+                    "it is left out; meters of irradiance stand on round disks and on the outsides of spheres",
+                );
+                continue;
             }
             let place = sensor.at();
-            let keys = IrradianceKeys {
+            let mut keys = IrradianceKeys {
                 name: place.at(self.meter_name(sensor)),
                 position: None,
                 normal: None,
-                corner: Some(given(sensor, map.transform_point3(DVec3::new(-1.0, -1.0, 0.0)))?),
-                edge_u: Some(given(sensor, edge_u)?),
-                edge_v: Some(place.at(given(sensor, edge_v)?)),
+                corner: None,
+                edge_u: None,
+                edge_v: None,
+                center: None,
+                radius: None,
                 medium: None,
             };
+            if shape.name == "rectangle" {
+                let [mut edge_u, mut edge_v] = [2.0 * along_x, 2.0 * along_y];
+                if flipped {
+                    std::mem::swap(&mut edge_u, &mut edge_v);
+                }
+                keys.corner = Some(given(sensor, map.transform_point3(DVec3::new(-1.0, -1.0, 0.0)))?);
+                keys.edge_u = Some(given(sensor, edge_u)?);
+                keys.edge_v = Some(place.at(given(sensor, edge_v)?));
+            } else if shape.name == "disk" {
+                let front = if flipped { -along_z } else { along_z };
+                keys.center = Some(given(sensor, map.translation)?);
+                keys.normal = Some(place.at(given(sensor, front)?));
+                keys.radius = Some(sensor.possible(Checked::of(along_x.length()))?);
+            } else {
+                let center = shape.vector("center")?.unwrap_or(DVec3::ZERO);
+                let radius = shape.number_or("radius", 1.0)? * along_x.length();
+                keys.center = Some(given(sensor, map.transform_point3(center))?);
+                keys.radius = Some(sensor.possible(Checked::of(radius))?);
+            }
             self.scene.file.meter.push(place.at(MeterEntry::Irradiance(keys)));
         }
         Ok(())

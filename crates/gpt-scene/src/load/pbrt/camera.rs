@@ -157,13 +157,29 @@ impl Converter<'_> {
                 let height = (window.high[1] - window.low[1]) * lengths[1];
                 camera.height = Some(place.at(entity.possible(Checked::of(height))?));
             }
+            // The middle of a panorama lies towards -X there, and what is to the right of it towards -Z.
+            "spherical" if entity.text("mapping")? == Some("equirectangular") => {
+                camera = entity.possible(camera_at(position, position - side, up, &place))?;
+                camera.projection = Some(place.at(ProjectionName::Equirectangular));
+                if film.high != film.size || film.low != [0.0; 2] {
+                    self.approximate(&entity.spot, "crop of a spherical camera", "all directions are in the picture");
+                }
+                if !mirrors {
+                    self.approximate(&entity.spot, "mirrored spherical camera", "its picture is not mirrored");
+                }
+            }
             other => {
                 let error = entity.error(format!("the camera `{other}` cannot be said here"));
-                return Err(error.with_help("perspective and orthographic ones can"));
+                return Err(
+                    error.with_help("perspective, orthographic and spherical ones can, these with the mapping `equirectangular`")
+                );
             }
         }
-        self.place_window(entity, &film, &window, (lengths, mirrors), &mut camera)?;
-        if lens > 0.0 {
+        let is_flat = entity.name != "spherical";
+        if is_flat {
+            self.place_window(entity, &film, &window, (lengths, mirrors), &mut camera)?;
+        }
+        if lens > 0.0 && is_flat {
             if (lengths[0] / lengths[1] - 1.0).abs() > 1e-6 {
                 self.approximate(&entity.spot, "lens of a camera that is scaled unevenly", "it is a disk");
             }

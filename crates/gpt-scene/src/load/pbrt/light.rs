@@ -8,13 +8,19 @@ use super::converter::Converter;
 use super::parameter::Entity;
 use super::spectrum::SpectrumKind;
 use super::world::LightRecord;
+use crate::equal_area_square::place_of;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
+use crate::load::file::light::profile::{ProfileEntry, ProfileTable};
 use crate::load::file::light::{LightEntry, directional, point, spot};
 use crate::load::file::syntax::{TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Exactly, NonNegative, Vector};
 use crate::load::import::{Input, world_direction};
+use crate::load::place::Place;
 use crate::spectrum::Spectrum;
+
+/// Degrees between the angles of the table that is made of a picture of all directions.
+const GONIOMETRIC_STEP: f64 = 2.0;
 
 /// The light of a shape.
 pub struct AreaLight {
@@ -76,31 +82,49 @@ impl Converter<'_> {
         Ok(LightEntry::Point(point::Keys {
             position: vector(entity, position)?,
             intensity: rgb(entity, intensity)?,
+            profile: None,
+            direction: None,
+            front: None,
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 
-    /// A light whose intensity a picture of all directions says: by its mean, the same into all of them.
+    /// A light whose intensity a picture of all directions says.
     fn goniometric_light(&mut self, entity: &Entity, map: &DAffine3) -> Result<LightEntry, SceneError> {
         let mut intensity = self.strength(entity, "I")?;
         let mut mean = 1.0;
+        let mut profile = None;
         if let Some(written) = entity.text("filename")?.map(str::to_owned) {
             let image = self.picture_named(entity, "filename", &written)?;
-            let texels = image.texels.colors().map(|texel| Spectrum::from_f32(texel.to_array()).mean());
-            mean = texels.sum::<f64>() / image.texels.len().max(1) as f64;
-            self.approximate(
-                &entity.spot,
-                "LightSource `goniometric`",
-                "it is as bright into all directions, by the mean of its picture",
-            );
+            let texels: Vec<f64> = image.texels.colors().map(|texel| Spectrum::from_f32(texel.to_array()).mean()).collect();
+            mean = texels.iter().sum::<f64>() / texels.len().max(1) as f64;
+            if image.width != image.height {
+                let message = format!("the picture of a light is a square, and not {} x {} texels", image.width, image.height);
+                return Err(entity.spot_of("filename").error(message));
+            }
+            if mean > 0.0 {
+                let instead = format!("its picture is a table of candela, every {GONIOMETRIC_STEP} degrees, without colours");
+                self.approximate(&entity.spot, "LightSource `goniometric`", instead);
+                let is_mirrored = map.matrix3.determinant() < 0.0;
+                profile =
+                    Some(entity.possible(goniometric_table(&texels, image.width as usize, is_mirrored, &entity.spot.place()))?);
+            }
         }
         match power_of(entity)? {
-            Some(power) => intensity *= power / (2.0 * TAU),
-            None => intensity *= mean,
+            Some(power) => intensity *= power / (2.0 * TAU) / if profile.is_some() { mean } else { 1.0 },
+            None => intensity *= if profile.is_some() { 1.0 } else { mean },
         }
-        self.point_at(entity, map, intensity)
+        let mut light = self.point_at(entity, map, intensity)?;
+        if let (Some(table), LightEntry::Point(keys)) = (profile, &mut light) {
+            let place = entity.spot.place();
+            keys.profile = Some(place.at(ProfileEntry::Table(table)));
+            keys.direction = Some(place.at(self.direction(entity, map, DVec3::Z)?));
+            keys.front = Some(place.at(self.direction(entity, map, DVec3::X)?));
+        }
+        Ok(light)
     }
 
     fn spot_light(&mut self, entity: &Entity, map: &DAffine3) -> Result<LightEntry, SceneError> {
@@ -131,9 +155,12 @@ impl Converter<'_> {
             curve: None,
             up: None,
             texture: None,
+            profile: None,
+            front: None,
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 
@@ -149,6 +176,7 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             node: None,
+            light_group: None,
         }))
     }
 
@@ -226,6 +254,28 @@ impl AreaLight {
             Input::Texture(name, own) => Input::Texture(name.clone(), *own * factor),
         }
     }
+}
+
+/// The candela of a square of equal areas, whose +z is nadir and whose +x is the side of horizontal angle 0; `is_mirrored`: its space is left-handed.
+fn goniometric_table(texels: &[f64], side: usize, is_mirrored: bool, place: &Place) -> Result<ProfileTable, String> {
+    let candela = |vertical: f64, horizontal: f64| {
+        let [(down_sine, down_cosine), (sine, cosine)] = [vertical, horizontal].map(|degrees| degrees.to_radians().sin_cos());
+        let across = if is_mirrored { sine } else { -sine };
+        let place = place_of(DVec3::new(down_sine * cosine, down_sine * across, down_cosine));
+        let [column, row] = place.map(|place| ((place * side as f64) as usize).min(side - 1));
+        texels[row * side + column]
+    };
+    let angles = |last: f64| (0..=(last / GONIOMETRIC_STEP) as u32).map(|step| f64::from(step) * GONIOMETRIC_STEP);
+    let number = Checked::<NonNegative>::of;
+    let plane =
+        |horizontal: f64| angles(180.0).map(|vertical| number(candela(vertical, horizontal))).collect::<Result<Vec<_>, _>>();
+    // The first and the last plane are one.
+    let turn = |horizontal: f64| plane(horizontal % 360.0);
+    Ok(ProfileTable {
+        vertical: place.at(angles(180.0).map(number).collect::<Result<_, _>>()?),
+        horizontal: Some(place.at(angles(360.0).map(number).collect::<Result<_, _>>()?)),
+        candela: place.at(angles(360.0).map(turn).collect::<Result<_, _>>()?),
+    })
 }
 
 /// A power above 0; other numbers say nothing there.

@@ -37,6 +37,9 @@ impl Camera {
         if !(0.0..=1.0).contains(&self.rolling_shutter) {
             return Err(format!("rows are exposed for a share of the time from 0 to 1, and not for {}", self.rolling_shutter));
         }
+        if !(self.inward_from.is_finite() && self.inward_from >= 0.0) {
+            return Err(format!("its rays cannot start {} from its position", self.inward_from));
+        }
         self.check_model()?;
         self.check_views(film)
     }

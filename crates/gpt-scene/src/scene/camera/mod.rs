@@ -63,6 +63,9 @@ pub struct Camera {
     /// Share of the time between for which each row of the picture is exposed, one after the other from the top: the first as the shutter opens, the
     /// last until it closes. 1: all at once.
     pub rolling_shutter: f64,
+    /// How far from its position rays start, to come back to it from where they would have gone; 0: they go out from the position. Meters on spheres
+    /// see so; scene files have no key for it.
+    pub inward_from: f64,
 }
 
 impl Default for Camera {
@@ -79,6 +82,7 @@ impl Default for Camera {
             stereo: None,
             shutter: [0.0, 1.0],
             rolling_shutter: 1.0,
+            inward_from: 0.0,
         }
     }
 }
@@ -134,7 +138,11 @@ impl Camera {
         };
         let kind =
             |camera: &Self| (std::mem::discriminant(&camera.projection), mapping(camera), camera.window(DVec2::ONE).is_some());
-        kind(self) == kind(other) && self.tiles() == other.tiles() && self.stereo.is_some() == other.stereo.is_some()
+        let is_inward = |camera: &Camera| camera.inward_from > 0.0;
+        kind(self) == kind(other)
+            && is_inward(self) == is_inward(other)
+            && self.tiles() == other.tiles()
+            && self.stereo.is_some() == other.stereo.is_some()
     }
 
     /// The layer of depth is measured along the viewing direction; else from the camera's position.

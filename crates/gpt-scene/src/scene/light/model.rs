@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::profile::AimedProfile;
 use crate::scene::check::{Check, is_amount, within_range};
 use crate::scene::image::ImageData;
 use crate::scene::light_at::LightAt;
@@ -33,6 +34,11 @@ pub trait SceneLight {
 
     /// The texture that it projects, if it does.
     fn texture(&self) -> Option<TextureId> {
+        None
+    }
+
+    /// The profile by which its intensity differs from direction to direction, if it has one.
+    fn profile(&self) -> Option<&AimedProfile> {
         None
     }
 }

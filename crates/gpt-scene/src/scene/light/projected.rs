@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::model::{DeltaLight, LightParameters, LightStrength, SceneLight, amounts, placed, stands};
+use super::profile::AimedProfile;
 use crate::math::Frame;
 use crate::scene::check::{Check, is_direction};
 use crate::scene::light_at::LightAt;
@@ -13,16 +14,19 @@ use crate::spectrum::Spectrum;
 
 /// A point light cut to a cone: full `intensity` inside `falloff_degrees` of the axis, none past `angle_degrees`, between them as its curve
 /// says.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SpotLight {
     pub position: DVec3,
     pub direction: DVec3,
+    /// With a profile, for each candela of it.
     pub intensity: Spectrum,
     pub angle_degrees: f64,
     pub falloff_degrees: f64,
     pub curve: FalloffCurve,
     /// The picture that multiplies the intensity and fills the square around the cone.
     pub picture: Option<ProjectedTexture>,
+    /// Its nadir is the light's direction.
+    pub profile: Option<AimedProfile>,
 }
 
 /// How the intensity of a spot light falls from 1 to 0 between its two angles.
@@ -64,6 +68,58 @@ impl SpotLight {
         let [outer, inner] = [self.angle_degrees, self.falloff_degrees].map(f64::to_radians);
         if outer > inner { 1.0 - (outer.sin() - inner.sin()) / (outer - inner) } else { 1.0 - outer.cos() }
     }
+
+    /// The integral of the intensity over all directions where it is 1 on the axis, without a picture.
+    fn solid_angle(&self) -> f64 {
+        let angles @ [outer, inner] = [self.angle_degrees, self.falloff_degrees];
+        if let Some(aimed) = &self.profile {
+            let factor = |degrees: f64| self.curve.share(degrees.to_radians().cos(), angles.map(f64::to_radians));
+            return aimed.profile.integral(factor, &angles);
+        }
+        let [outer, inner] = [outer, inner].map(solid);
+        match self.curve {
+            FalloffCurve::Smooth => PI * (outer + inner),
+            FalloffCurve::Square => 2.0 * PI * (inner + (outer - inner) / 3.0),
+            FalloffCurve::Linear => 2.0 * PI * self.linear_share(),
+        }
+    }
+
+    /// Some of its profile's light lies within its cone.
+    pub fn shines(&self) -> bool {
+        self.solid_angle() > 0.0
+    }
+
+    /// The light without its profile, and as strong.
+    pub fn without_profile(&self) -> Self {
+        let plain = Self { profile: None, ..self.clone() };
+        let share = self.solid_angle() / plain.solid_angle();
+        Self { intensity: self.intensity * if share.is_finite() { share } else { 0.0 }, ..plain }
+    }
+}
+
+/// 1 − cosine of an angle in degrees. Written this way, narrow cones keep their precision.
+fn solid(degrees: f64) -> f64 {
+    2.0 * (0.5 * degrees).to_radians().sin().powi(2)
+}
+
+impl FalloffCurve {
+    /// How much of a spot light's intensity goes in a direction whose cosine with the axis is `cosine`: 1 within the inner angle, 0 past the outer;
+    /// `angles` are the outer and the inner one in radians.
+    pub fn share(self, cosine: f64, angles: [f64; 2]) -> f64 {
+        let [outer, inner] = angles.map(f64::cos);
+        if cosine >= inner {
+            return 1.0;
+        }
+        if cosine <= outer {
+            return 0.0;
+        }
+        let t = (cosine - outer) / (inner - outer);
+        match self {
+            Self::Smooth => t * t * (3.0 - 2.0 * t),
+            Self::Square => t * t,
+            Self::Linear => (angles[0] - cosine.acos()) / (angles[0] - angles[1]),
+        }
+    }
 }
 
 impl SceneLight for SpotLight {
@@ -80,6 +136,13 @@ impl SceneLight for SpotLight {
                 return Err(format!("its picture fills a cone of {angle} degrees"));
             }
         }
+        if let Some(aimed) = &self.profile {
+            placed(aimed.nadir == self.direction)?;
+            aimed.check(self.intensity)?;
+            if !self.shines() {
+                return Err(format!("its profile gives no light within {angle} degrees of its direction"));
+            }
+        }
         amounts(&[self.intensity])
     }
 
@@ -94,6 +157,14 @@ impl SceneLight for SpotLight {
         if let Some(picture) = &mut self.picture {
             at.take_along(&mut picture.up);
         }
+        if let Some(aimed) = &mut self.profile {
+            aimed.nadir = self.direction;
+            at.take_along(&mut aimed.front);
+        }
+    }
+
+    fn profile(&self) -> Option<&AimedProfile> {
+        self.profile.as_ref()
     }
 
     fn texture(&self) -> Option<TextureId> {
@@ -111,12 +182,12 @@ pub const FALLOFF_LINEAR: u32 = 2;
 /// smooth step between the angles has the mean ½ over the solid angle, the square ⅓.
 impl DeltaLight for SpotLight {
     fn parameters(&self) -> LightParameters {
-        let solid = |angle: f64| 2.0 * (0.5 * angle).to_radians().sin().powi(2);
         let [outer, inner] = [self.angle_degrees, self.falloff_degrees].map(solid);
-        let (form, power) = match self.curve {
-            FalloffCurve::Smooth => (0, PI * (outer + inner)),
-            FalloffCurve::Square => (FALLOFF_SQUARE, 2.0 * PI * (inner + (outer - inner) / 3.0)),
-            FalloffCurve::Linear => (FALLOFF_LINEAR, 2.0 * PI * self.linear_share()),
+        let power = self.solid_angle();
+        let form = match self.curve {
+            FalloffCurve::Smooth => 0,
+            FalloffCurve::Square => FALLOFF_SQUARE,
+            FalloffCurve::Linear => FALLOFF_LINEAR,
         };
         let limits = if self.curve == FalloffCurve::Linear {
             [self.angle_degrees / 360.0, self.falloff_degrees / 360.0]

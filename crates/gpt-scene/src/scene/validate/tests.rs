@@ -120,6 +120,7 @@ fn scene() -> Scene {
         falloff_degrees: 20.0,
         curve: Default::default(),
         picture: None,
+        profile: None,
     });
     let map = Environment {
         radiance: EnvironmentRadiance::Map(pixels(4, 2)),
@@ -129,7 +130,7 @@ fn scene() -> Scene {
         mirrored: false,
     };
     scene.lights = vec![
-        Light::Point(PointLight { position: DVec3::ONE, intensity: b }),
+        Light::Point(PointLight { position: DVec3::ONE, intensity: b, profile: None }),
         spot,
         Light::Directional(DirectionalLight { direction: DVec3::X, irradiance: b }),
         Light::Environment(map),
@@ -401,17 +402,17 @@ fn each_mistake_is_named_with_its_part() {
         ),
         (|s| s.camera.position = DVec3::Z * 1.1e18, "camera: it reaches farther than 1e18"),
         (
-            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::X * 1.1e18, intensity: Spectrum::WHITE }),
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::X * 1.1e18, intensity: Spectrum::WHITE, profile: None }),
             "light[0]: it reaches farther than 1e18",
         ),
         (|s| s.shapes[5].portal = true, "plane: a plane cannot be a portal"),
         (|s| s.shapes[5].geometry = Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::ZERO }), "plane: its numbers"),
         (
-            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::ONE, intensity: Spectrum::grey(-1.0) }),
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::ONE, intensity: Spectrum::grey(-1.0), profile: None }),
             "light[0]: its light must be",
         ),
         (
-            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::NAN, intensity: Spectrum::WHITE }),
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::NAN, intensity: Spectrum::WHITE, profile: None }),
             "light[0]: its position must be finite",
         ),
         (
@@ -425,6 +426,7 @@ fn each_mistake_is_named_with_its_part() {
                     falloff_degrees: 20.0,
                     curve: Default::default(),
                     picture: None,
+                    profile: None,
                 });
             },
             "light[1]: its light falls off from 20 to 10 degrees",

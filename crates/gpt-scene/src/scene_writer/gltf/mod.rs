@@ -31,7 +31,7 @@ use super::losses::Losses;
 use super::surroundings::with_media_below_surfaces;
 use super::written::WrittenScene;
 use crate::load::file::writer::{Names, SideFiles};
-use crate::scene::{MaterialId, Scene};
+use crate::scene::{LightProfile, MaterialId, Scene};
 
 /// A scene as one of glTF 2.0 that is to be written to `target`: binary where that ends in `.glb`, else JSON, beside which its data and pictures lie
 /// in the folder `NAME.files`. `name` is how reports call the scene.
@@ -50,6 +50,7 @@ pub fn as_gltf(scene: &Scene, name: &str, target: &Path) -> WrittenScene {
         made_materials: HashMap::new(),
         made_meshes: HashMap::new(),
         made_textures: HashMap::new(),
+        made_profiles: HashMap::new(),
         extensions: BTreeSet::new(),
         uses_sets: [false; 2],
         round: BTreeMap::new(),
@@ -67,6 +68,7 @@ struct Lists {
     materials: Vec<Value>,
     meshes: Vec<Value>,
     nodes: Vec<Value>,
+    profiles: Vec<Value>,
     samplers: Vec<Value>,
     textures: Vec<Value>,
 }
@@ -83,6 +85,8 @@ struct Writer<'w> {
     made_meshes: HashMap<MeshKey, Option<usize>>,
     /// Indices of textures and images, by what they are made from.
     made_textures: HashMap<String, usize>,
+    /// Indices of lights' profiles.
+    made_profiles: HashMap<*const LightProfile, usize>,
     extensions: BTreeSet<&'static str>,
     /// The sets of texture coordinates that the material in the making uses.
     uses_sets: [bool; 2],
@@ -139,9 +143,15 @@ impl Writer<'_> {
         // A list without entries is not allowed.
         let scene = if nodes.is_empty() { json!({}) } else { json!({ "nodes": nodes }) };
         root.insert("scenes".to_owned(), json!([scene]));
-        if !self.lists.lights.is_empty() {
-            let name = self.uses("KHR_lights_punctual");
-            root.insert("extensions".to_owned(), json!({ name: { "lights": self.lists.lights } }));
+        let lights = [
+            ("KHR_lights_punctual", std::mem::take(&mut self.lists.lights)),
+            ("EXT_lights_ies", std::mem::take(&mut self.lists.profiles)),
+        ];
+        let of_root = lights.into_iter().filter(|(_, lights)| !lights.is_empty());
+        let of_root: Map<String, Value> =
+            of_root.map(|(name, lights)| (self.uses(name).to_owned(), json!({ "lights": lights }))).collect();
+        if !of_root.is_empty() {
+            root.insert("extensions".to_owned(), Value::Object(of_root));
         }
         let (data, views, accessors) = self.buffer.into_parts();
         let lists = [

@@ -383,6 +383,15 @@ impl<'w> Writer<'w> {
                 let grey = channel.and_then(|channel| self.picture_of_channel(name, channel));
                 let raw = grey.is_some() || text(&texture, "color_space") == Some("linear");
                 let _ = text(&texture, "color_space");
+                let mut filter = text(&texture, "filter").unwrap_or("bilinear");
+                if filter == "triangle" {
+                    self.approximate(
+                        "colours of vertices",
+                        &place,
+                        "they are a picture, in which neighbours run into each other",
+                    );
+                    filter = "bilinear";
+                }
                 let file = grey.unwrap_or(own);
                 // v runs downward over a picture there.
                 let steps = format!(
@@ -392,7 +401,7 @@ impl<'w> Writer<'w> {
                     .named(role)
                     .string("filename", &file)
                     .boolean("raw", raw)
-                    .string("filter_type", text(&texture, "filter").unwrap_or("bilinear"))
+                    .string("filter_type", filter)
                     .string("wrap_mode", text(&texture, "wrap").unwrap_or("repeat"))
                     .transform("to_uv", &steps)
             }

@@ -23,7 +23,8 @@ use super::surroundings::{Surroundings, has_media};
 use super::written::WrittenScene;
 use crate::load::SceneError;
 use crate::load::file::writer::SideFiles;
-use crate::scene::{MeterKind, Scene};
+use crate::scene::{Light, MeterKind, Scene};
+use crate::spectrum::Spectrum;
 
 /// A scene as one of Mitsuba that is to be written to `target`; meshes and pictures that come from no file lie in the folder `NAME.files` beside
 /// it. `name` is how reports call the scene.
@@ -73,9 +74,10 @@ impl Writer<'_> {
             self.instances(index, &instances);
             self.drop_rest(&instances, &format!("instance[{index}]"));
         }
-        for (index, light) in entries(self.scene, "light").into_iter().map(Keys::of).enumerate() {
+        let lights = entries(self.scene, "light").into_iter().map(Keys::of);
+        for (index, (light, original)) in lights.zip(&self.original.lights).enumerate() {
             let place = format!("light[{index}]");
-            if self.light(&light, &place)? {
+            if self.light(&light, original, &place)? {
                 self.drop_rest(&light, &place);
             }
         }
@@ -234,11 +236,12 @@ impl Writer<'_> {
     }
 
     /// Writes a light; returns false where Mitsuba has no such light.
-    fn light(&mut self, light: &Keys<'_>, place: &str) -> Result<bool, SceneError> {
+    fn light(&mut self, light: &Keys<'_>, original: &Light, place: &str) -> Result<bool, SceneError> {
+        let intensity = self.intensity(light, original, place);
         let emitter = match text(light, "type").unwrap_or_default() {
             "point" => Element::new("emitter", "point")
                 .point("position", vector(light, "position").unwrap_or_default())
-                .rgb("intensity", colour(light, "intensity")),
+                .rgb("intensity", intensity),
             "spot" => {
                 let (position, direction) =
                     (vector(light, "position").unwrap_or_default(), vector(light, "direction").unwrap_or(DVec3::Z));
@@ -256,7 +259,7 @@ impl Writer<'_> {
                     .transform("to_world", &aim)
                     .float("cutoff_angle", angle)
                     .float("beam_width", falloff)
-                    .rgb("intensity", colour(light, "intensity"));
+                    .rgb("intensity", intensity);
                 match text(light, "texture") {
                     // Its picture stands mirrored there.
                     Some(name) => {
@@ -278,6 +281,21 @@ impl Writer<'_> {
         };
         self.xml.push(emitter);
         Ok(true)
+    }
+
+    /// The intensity of a point or spot light. Mitsuba has no profiles: without its own, a light is as strong.
+    fn intensity(&mut self, light: &Keys<'_>, original: &Light, place: &str) -> Spectrum {
+        let plain = match original {
+            Light::Point(point) if point.profile.is_some() => point.mean_intensity(),
+            Light::Spot(spot) if spot.profile.is_some() => spot.without_profile().intensity,
+            _ => return colour(light, "intensity"),
+        };
+        let _ = ["intensity", "profile", "front"].map(|key| light.contains_key(key));
+        if matches!(original, Light::Point(_)) {
+            let _ = light.contains_key("direction");
+        }
+        self.approximate("profile of a light", place, "it is as strong without it");
+        plain
     }
 
     /// The radiance that it throws is 1/π of the irradiance.

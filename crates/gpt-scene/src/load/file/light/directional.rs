@@ -7,6 +7,7 @@ use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{DirectionalKeyEntry, InterpolationName, WrittenLightTrack};
+use crate::load::file::light_group::LightGroupName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Vector};
 use crate::load::file::writer::{Writer, colour, direction, line};
@@ -29,6 +30,8 @@ pub struct Keys {
     pub interpolation: Option<Located<InterpolationName>>,
     /// A `[[node]]` that takes the light along at frames.
     pub node: Option<Located<String>>,
+    /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
+    pub light_group: Option<Located<LightGroupName>>,
 }
 
 impl LightKeys for Keys {

@@ -11,6 +11,7 @@ use crate::load::environment_map;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{EnvironmentKeyEntry, InterpolationName, WrittenLightTrack};
+use crate::load::file::light_group::LightGroupName;
 use crate::load::file::reference::FileOr;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::shape::TransformEntry;
@@ -48,6 +49,8 @@ pub struct Keys {
     pub keyframes: Option<Located<Vec<Located<EnvironmentKeyEntry>>>>,
     /// How keyframes lead from one to the next; "linear" when left out.
     pub interpolation: Option<Located<InterpolationName>>,
+    /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
+    pub light_group: Option<Located<LightGroupName>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -161,6 +164,7 @@ impl Keys {
             rows: None,
             keyframes: None,
             interpolation: None,
+            light_group: None,
         }
     }
 

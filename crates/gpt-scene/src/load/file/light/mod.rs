@@ -4,6 +4,7 @@ pub mod directional;
 pub mod environment;
 mod keys;
 pub mod point;
+pub mod profile;
 pub mod projector;
 pub mod sky;
 pub mod spot;
@@ -14,6 +15,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use self::keys::LightKeys;
+use super::light_group::LightGroupName;
 use super::reference::TextureName;
 use super::resolver::Resolver;
 use super::value::Located;
@@ -40,6 +42,13 @@ macro_rules! entries {
         /// The key by which keyframes state how strong a light is.
         pub fn strength_key(light: &Light) -> &'static str {
             match light { $($(Light::$variant(_) => $module::Keys::STRENGTH,)*)* }
+        }
+
+        impl LightEntry {
+            /// The group that its light is in.
+            fn light_group(&self) -> Option<&Located<LightGroupName>> {
+                match self { $($(Self::$variant(keys) => keys.light_group.as_ref(),)*)* }
+            }
         }
 
         impl Located<LightEntry> {
@@ -117,6 +126,9 @@ impl Resolver<'_> {
             let track = self.note(track).flatten();
             Arc::make_mut(&mut self.scene.animation).lights.extend(track);
             let light = self.note(light);
+            let group = self.light_group(entry.value.light_group());
+            let group = self.note(group).unwrap_or(0);
+            self.scene.light_groups.put_light(self.scene.lights.len(), group);
             self.scene.lights.extend(light);
         }
     }

@@ -7,6 +7,7 @@ use super::keys::LightKeys;
 use super::spot::up_across;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
+use crate::load::file::light_group::LightGroupName;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, FieldOfView, Located, NonNegative, Positive, Vector, vector};
@@ -31,6 +32,8 @@ pub struct Keys {
     pub aspect: Option<Checked<Positive>>,
     /// A `[[texture]]`'s name; white when left out.
     pub texture: Option<Located<TextureName>>,
+    /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
+    pub light_group: Option<Located<LightGroupName>>,
 }
 
 impl LightKeys for Keys {

@@ -6,8 +6,9 @@ use serde::Deserialize;
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
+use crate::load::file::light_group::LightGroupName;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::NonNegative;
+use crate::load::file::value::{Located, NonNegative};
 use crate::load::file::writer::{Writer, colour, line};
 use crate::load::place::Place;
 use crate::scene::Sky;
@@ -20,6 +21,8 @@ pub struct Keys {
     pub zenith: Rgb<NonNegative>,
     pub horizon: Rgb<NonNegative>,
     pub ground: Rgb<NonNegative>,
+    /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
+    pub light_group: Option<Located<LightGroupName>>,
 }
 
 impl LightKeys for Keys {

@@ -5,9 +5,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::keys::LightKeys;
+use super::profile::{ProfileEntry, write_profile};
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{InterpolationName, SpotKeyEntry, WrittenLightTrack};
+use crate::load::file::light_group::LightGroupName;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
@@ -19,11 +21,11 @@ use crate::scene::{FalloffCurve, ProjectedTexture, SpotLight};
 /// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as `curve` says.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "SpotLight", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
+#[schemars(rename = "SpotLight", extend("dependentRequired" = { "interpolation": ["keyframes"], "front": ["profile"] }))]
 pub struct Keys {
     pub position: Vector,
     pub direction: Located<Vector>,
-    /// W·sr⁻¹ on the axis.
+    /// W·sr⁻¹ on the axis; with `profile`, for each candela there, as of a point light.
     pub intensity: Rgb<NonNegative>,
     /// Degrees from the axis past which there is no light.
     pub angle: Checked<HalfAngle>,
@@ -35,6 +37,10 @@ pub struct Keys {
     pub texture: Option<Located<TextureName>>,
     /// With `texture`: where its upper edge is, seen from the light; [0, 1, 0] when left out.
     pub up: Option<Located<Vector>>,
+    /// Light by direction, within the cone: a photometric file (IES LM-63, `.ies`, type C) or its table, of which `direction` is vertical angle 0.
+    pub profile: Option<Located<ProfileEntry>>,
+    /// With `profile`: the side of horizontal angle 0, projected across `direction`; [1, 0, 0] when left out. Horizontal angles grow counter-clockwise for who looks along `direction`.
+    pub front: Option<Located<Vector>>,
     /// Values at frames (`--frame`, `--frames`, `--time`); without a frame the other keys hold.
     #[schemars(extend("minItems" = 1))]
     pub keyframes: Option<Located<Vec<Located<SpotKeyEntry>>>>,
@@ -42,6 +48,8 @@ pub struct Keys {
     pub interpolation: Option<Located<InterpolationName>>,
     /// A `[[node]]` that takes the light along at frames.
     pub node: Option<Located<String>>,
+    /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
+    pub light_group: Option<Located<LightGroupName>>,
 }
 
 /// How a spot light's intensity falls between its angles.
@@ -63,6 +71,7 @@ impl LightKeys for Keys {
         "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = [20, 18, 15]\nangle = 35\nfalloff = 10",
         "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = 15\nangle = 35\nfalloff = 10\ncurve = \"square\"",
         "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = 15\nangle = 35\nfalloff = 10\ncurve = \"linear\"",
+        "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = 0.15\nangle = 65\nfalloff = 10\nprofile = { vertical = [0, 15, 45, 80], horizontal = [0, 50, 90], candela = [[100, 160, 60, 20], [100, 120, 90, 40], [100, 70, 130, 0]] }",
     ];
     const STRENGTH: &'static str = "intensity";
 
@@ -75,9 +84,15 @@ impl LightKeys for Keys {
             return Err(resolver.error(&written.place, format!("`falloff` is at most `angle`, {angle} degrees")));
         }
         let picture = self.picture(resolver)?;
-        Ok(SpotLight {
+        let direction = resolver.direction(&self.direction)?;
+        if let (Some(front), None) = (&self.front, &self.profile) {
+            return Err(resolver.error(&front.place, "`front` belongs to `profile`, which this light has not"));
+        }
+        let written = self.profile.as_ref();
+        let profile = written.map(|written| resolver.aimed_profile(written, direction, self.front.as_ref())).transpose()?;
+        let light = SpotLight {
             position: vector(self.position),
-            direction: resolver.direction(&self.direction)?,
+            direction,
             intensity: self.intensity.0,
             angle_degrees: angle,
             falloff_degrees: falloff,
@@ -87,7 +102,14 @@ impl LightKeys for Keys {
                 Some(CurveName::Linear) => FalloffCurve::Linear,
             },
             picture,
-        })
+            profile,
+        };
+        match written.filter(|_| !light.shines()) {
+            Some(written) => {
+                Err(resolver.error(&written.place, format!("its profile gives no light within {angle} degrees of `direction`")))
+            }
+            None => Ok(light),
+        }
     }
 
     fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
@@ -113,6 +135,7 @@ impl LightKeys for Keys {
             light.picture.map_or(String::new(), |picture| {
                 line("texture", &writer.textures.quoted(picture.texture)) + &line("up", &writer::vector(picture.up))
             }),
+            light.profile.as_ref().map_or(String::new(), |aimed| write_profile(aimed, writer)),
         ]
         .concat()
     }

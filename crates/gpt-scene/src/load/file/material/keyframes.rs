@@ -7,6 +7,11 @@ use crate::load::file::value::Located;
 use crate::scene::animation::{Curve, Interpolation, Key, MaterialTrack};
 use crate::scene::{ColorInput, Emission, Material};
 
+/// Some keyframe states this key.
+pub fn states<K: KeyedMaterial>(keys: &K, key: &str) -> bool {
+    keys.keyframes().is_some_and(|keyframes| keyframes.value.iter().any(|entry| entry.value.stated().contains(&key)))
+}
+
 /// The numbers of a material at frames; None where it has no keyframes.
 ///
 /// Keyframes state keys and frames change numbers. Which numbers a key stands for shows where it is exchanged alone: a key that several

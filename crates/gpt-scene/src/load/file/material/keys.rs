@@ -4,6 +4,7 @@ use super::opacity::Opacity;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::keyframes::InterpolationName;
+use crate::load::file::light_group::LightGroupName;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative, Number};
@@ -99,6 +100,7 @@ pub struct CommonKeys<'a> {
     pub opacity: Option<&'a Located<Opacity>>,
     pub two_sided: Option<&'a Located<bool>>,
     pub interior: Option<&'a Located<String>>,
+    pub light_group: Option<&'a Located<LightGroupName>>,
 }
 
 /// Mutable references to the common keys.
@@ -158,6 +160,8 @@ macro_rules! material_keys {
             pub opacity: Option<$crate::load::file::value::Located<$crate::load::file::material::opacity::Opacity>>,
             /// A `[[medium]]` that fills closed shapes of this material: it is behind their fronts.
             pub interior: Option<$crate::load::file::value::Located<String>>,
+            /// The light group in which `--aov groups` keeps the material's emission apart; "rest" when left out.
+            pub light_group: Option<$crate::load::file::value::Located<$crate::load::file::light_group::LightGroupName>>,
             /// Keys of the material's own type, and `emission`, at frames (`--frame`, `--frames`, `--time`); without a frame the other keys hold.
             #[schemars(extend("minItems" = 1))]
             pub keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<Keyframe>>>>,
@@ -235,6 +239,7 @@ macro_rules! material_keys {
                     opacity: self.opacity.as_ref(),
                     two_sided: self.two_sided.as_ref(),
                     interior: self.interior.as_ref(),
+                    light_group: self.light_group.as_ref(),
                 }
             }
 

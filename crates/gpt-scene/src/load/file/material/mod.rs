@@ -80,6 +80,12 @@ macro_rules! entries {
                 match self { $(Self::$material(keys) => keys.emission(&keys.common(), resolver),)* }
             }
 
+            /// The material sends out light by itself, at some frame at least.
+            pub fn gives_light(&self) -> bool {
+                let by_frames = match self { $(Self::$material(keys) => keyframes::states(&**keys, "emission"),)* };
+                by_frames || self.radiance().is_some()
+            }
+
             pub fn two_sided(&self, resolver: &Resolver<'_>) -> Result<bool, SceneError> {
                 match self { $(Self::$material(keys) => keys.two_sided(&keys.common(), resolver),)* }
             }

@@ -55,6 +55,7 @@ impl Resolver<'_> {
             stereo,
             shutter,
             rolling_shutter: written.rolling_shutter.map_or(1.0, |share| share.0),
+            inward_from: 0.0,
         };
         self.check_model(written)
     }

@@ -9,6 +9,11 @@ use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
 use crate::scene::{BlendWeight, Material, MaterialKind, Relief, Texture, TextureId, TextureKind, check_blends};
 
+/// Help where a material without emission names a light group.
+const NO_EMISSION: &str = "this material has no `emission`";
+const OF_PARTS: &str =
+    "this material has no `emission` of its own, and each of those that it is made of names its group by itself";
+
 impl Resolver<'_> {
     pub(super) fn materials(&mut self, written: &[MaterialEntry]) -> Result<(), SceneError> {
         self.material_names = self.register("material", written.iter().map(|entry| entry.common().name))?;
@@ -27,6 +32,11 @@ impl Resolver<'_> {
                 interior: None,
             });
             self.scene.materials.push(material);
+            let (written, emits) = (entry.common().light_group, entry.gives_light());
+            let help = if entry.parts().is_empty() { NO_EMISSION } else { OF_PARTS };
+            let group = self.light_group_of(written, emits, help);
+            let group = self.note(group).unwrap_or(0);
+            self.scene.light_groups.put_material(id, group);
             let track = entry.track(id, self);
             if let Some(Some(track)) = self.note(track) {
                 Arc::make_mut(&mut self.scene.animation).materials.push(track);
@@ -66,6 +76,7 @@ impl Resolver<'_> {
                         two_sided: true,
                         interior: material.interior,
                     };
+                    self.scene.light_groups.put_material(id, 0);
                 }
                 weight => {
                     let count = written.len() + of_entry.len();
@@ -92,6 +103,7 @@ impl Resolver<'_> {
                     self.scene.materials.extend([whole, nothing]);
                     let animation = Arc::make_mut(&mut self.scene.animation);
                     animation.materials.iter_mut().filter(|track| track.material == id).for_each(|track| track.material = count);
+                    self.scene.light_groups.move_material(id, count);
                     of_entry.extend([id, id]);
                 }
             }

@@ -12,6 +12,10 @@ impl Resolver<'_> {
         for entry in written {
             let medium = entry.resolve(self);
             let medium = self.note(medium);
+            let group =
+                self.light_group_of(entry.light_group.as_ref(), entry.emission.is_some(), "this medium has no `emission`");
+            let group = self.note(group).unwrap_or(0);
+            self.scene.light_groups.put_medium(self.scene.media.len(), group);
             self.scene.media.extend(medium);
         }
         // A medium that is wrong has no number, so that names behind it would mean others.

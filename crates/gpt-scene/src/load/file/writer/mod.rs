@@ -16,6 +16,7 @@ pub use side_files::is_on_disk;
 pub use value::{colour, direction, flag, numbers, pair_f32, vector, vector_f32};
 
 pub use crate::load::toml_text::{line, list, number, table, text};
+use crate::scene::light::LightProfile;
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, ImageSource, Mesh, MeshSource, Scene, Shape};
 
 /// A scene file in the making.
@@ -57,6 +58,12 @@ impl Writer<'_> {
         let Some(content) = embedded else { return self.files.name_of(path) };
         let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
         self.files.add_picture(content.as_ptr() as usize, &ending, || content.to_vec())
+    }
+
+    /// The file that a light's profile came from, in quotes; None of one that came from no file on disk.
+    pub fn profile_file(&mut self, profile: &Arc<LightProfile>) -> Option<String> {
+        let path = self.scene.sources.profile(profile).filter(|path| is_on_disk(path))?;
+        Some(self.files.name_of(path))
     }
 
     /// The line that names a shape's material.

@@ -1,7 +1,7 @@
 //! Cameras, films and lights.
 
 use super::{Folder, SCENE, read, report, valid, whole};
-use crate::scene::{EnvironmentRadiance, Light, Projection, Scene};
+use crate::scene::{Camera, EnvironmentRadiance, Equirectangular, Light, Projection, Scene};
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 
@@ -46,6 +46,24 @@ fn cameras_see_what_they_see_there() {
     let refused = SCENE.replace("perspective", "spherical").replace("MORE", "");
     let error = Folder::new(&[("a.pbrt", refused.as_bytes())]).load("a.pbrt").map(|_| ()).expect_err("no such camera");
     assert!(error.message().contains("`spherical`") && error.line() == Some(4), "{error}");
+}
+
+/// A panorama of LookAt's frame shows in its middle what pbrt-v4's (cameras.cpp) shows there: the way to -X of the camera's space, which lies to
+/// the side of where it looks. Mirrored, it is not mirrored here, which is reported.
+#[test]
+fn panoramas_look_aside() {
+    let mirrored = SCENE.replace("\"perspective\" \"float fov\" 40", "\"spherical\" \"string mapping\" \"equirectangular\"");
+    let panorama = mirrored.replace("Scale -1 1 1\n", "");
+    let (straight, scene) = (sphere(SCENE), sphere(&panorama));
+    assert_eq!(scene.camera.projection, Projection::Equirectangular(Equirectangular::default()));
+    let ahead = |camera: &Camera| (camera.look_at - camera.position).normalize();
+    let [_, above, _] = straight.camera.frame();
+    // LookAt's side is up × forward.
+    let middle = -above.cross(ahead(&straight.camera));
+    assert!(ahead(&scene.camera).distance(middle) < 1e-9, "{} and not {middle}", ahead(&scene.camera));
+    assert!(ahead(&scene.camera).distance(ahead(&straight.camera)) > 1.0, "the control");
+    assert_eq!(report(&scene), "");
+    assert!(report(&sphere(&mirrored)).contains("mirrored spherical camera"), "{}", report(&sphere(&mirrored)));
 }
 
 /// A crop shows its part of the whole picture: the lower right quarter.

@@ -169,6 +169,7 @@ fn known(name: &str, kind: &str) -> Option<Vec<(&'static str, &'static str)>> {
         ("LightSource", "spot") => {
             &[&[("I", "rgb"), ("from", "point3"), ("to", "point3"), ("coneangle", "float"), ("conedeltaangle", "float")]]
         }
+        ("LightSource", "goniometric") => &[&[("I", "rgb"), ("filename", "string")]],
         ("LightSource", "distant") => &[&[("L", "rgb"), ("from", "point3"), ("to", "point3")]],
         ("LightSource", "infinite") => &[&[("L", "rgb"), ("filename", "string")]],
         ("AreaLightSource", "diffuse") => &[&[("L", "rgb"), ("filename", "string"), ("twosided", "bool")]],
