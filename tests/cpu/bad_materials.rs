@@ -272,6 +272,8 @@ fn blends_in_a_circle_and_without_end_are_refused() {
     assert!(complaint(&of("m", "white", "m")).contains("the blend `m` contains itself"));
     let circle = of("m", "white", "a") + &of("a", "b", "mirror") + &of("b", "white", "m");
     assert!(complaint(&circle).contains("contains itself"));
+    let stack = "[[material]]\nname = \"s\"\ntype = \"layered\"\ninterfaces = [\"m\"]\n";
+    assert!(complaint(&(of("m", "white", "m") + stack)).contains("the blend `m` contains itself"));
     // Every level names the one before it twice: 2^17 leaves, then 2^64.
     for levels in [17, 64] {
         let mut doubling = of("l0", "white", "mirror");

@@ -294,7 +294,7 @@ fn wrap(document: &mut DocumentMut, at: &[Step]) -> Result<(), Refused> {
         names.push(free.clone());
         free
     };
-    // What names the material names the blend from now on; or the one place that is wrapped names it.
+    // Every place that names the material names the blend from now on; or the one place that is wrapped does.
     let first = if in_place { name.clone() } else { take_name() };
     let second = take_name();
     let blend = if in_place { take_name() } else { name.clone() };

@@ -44,7 +44,7 @@ struct Content {
     form: Form,
 }
 
-/// What a text has in its file and not here.
+/// Traits of the file that the edited text has not.
 #[derive(Debug, Clone, Copy)]
 struct Form {
     has_mark: bool,
@@ -249,8 +249,8 @@ impl Content {
 
 #[cfg(test)]
 mod tests {
+    use super::super::changes::Step;
     use super::*;
-    use crate::cli::edit::changes::Step;
 
     const TEXT: &str = "# A room.\n[[material]]\nname = \"a\" # kept\ntype = \"diffuse\"\nreflectance = 0.5\n";
 
@@ -319,6 +319,25 @@ mod tests {
             file.save(3, true).expect("it is asked for");
             assert_eq!(read(), written(&TEXT.replace("0.5", "0.75")));
         }
+    }
+
+    /// The page offers every name for every part.
+    #[test]
+    fn materials_within_themselves_are_mistakes() {
+        let camera =
+            "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n";
+        let blend = |part: &str| {
+            format!(
+                "[[material]]\nname = \"m\"\ntype = \"blend\"\nmaterials = [\"{part}\", \"a\"]\nweight = {{ type = \"front\" }}\n"
+            )
+        };
+        let layered = "[[material]]\nname = \"l\"\ntype = \"layered\"\ninterfaces = [\"m\"]\n";
+        let scene = |part: &str| {
+            let (_folder, _, file) = opened(&[TEXT, camera, &blend(part), layered].concat());
+            file.scene(&LoadOptions::default()).err().map(|error| error.message().to_owned())
+        };
+        assert_eq!(scene("m").as_deref(), Some("the blend `m` contains itself"));
+        assert_eq!(scene("a"), None, "the control");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 /// The panel, and whoever answers its requests. Only a page that has one may change anything.
 pub trait Panel: Send + Sync {
-    /// What follows the page's own parts: its style, its elements and its scripts.
+    /// The text that follows the page's own parts: its style, its elements and its scripts.
     fn parts(&self) -> String;
 
     /// The answer to a GET; None: there is no such page.
@@ -20,7 +20,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// What was asked for, as JSON.
+    /// An answer that holds what was asked for, as JSON.
     pub fn json(body: Vec<u8>) -> Self {
         Self { status: "200 OK", kind: "application/json", body }
     }

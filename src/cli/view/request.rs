@@ -76,7 +76,7 @@ impl Request {
         }
     }
 
-    /// What the request brings, if the page that this server gave out makes it: a page of another origin cannot send JSON without asking first, and a
+    /// The content that the request brings, if the page that this server gave out makes it: a page of another origin cannot send JSON without asking first, and a
     /// browser tells whose request it is.
     ///
     /// # Errors

@@ -48,13 +48,14 @@ impl Scene {
             of(|| format!("medium `{}`", medium.name), medium.check())?;
         }
         of(|| "camera".into(), self.camera_medium.map_or(Ok(()), |id| self.medium_exists(id)))?;
-        for material in &self.materials {
-            of(|| format!("material `{}`", material.name), self.check_material(material))?;
-        }
+        // Checks of materials follow blends to their ends.
         check_blends(&self.materials).map_err(|(id, message)| {
             let part = format!("material `{}`", self.materials[id].name);
             InvalidScene { part, message }
         })?;
+        for material in &self.materials {
+            of(|| format!("material `{}`", material.name), self.check_material(material))?;
+        }
         let textured = self.materials_that(Material::uses_texture);
         let open = self.openness();
         let mut kinds: Vec<[u64; 2]> = open.iter().flatten().map(|kind| kind.map(f64::to_bits)).collect();

@@ -45,7 +45,7 @@ function fits(node, value) {
   });
 }
 
-// What a key means when it is left out, as far as the schema says so.
+// The value that holds when a key is left out, as far as the schema says so.
 function defaultOf(node) {
   const resolved = resolve(node);
   if (resolved.default !== undefined) return resolved.default;
@@ -53,14 +53,15 @@ function defaultOf(node) {
   return found ? JSON.parse(found[1]) : undefined;
 }
 
-const firstName = (key) => model.lists[model.references[key]]?.[0]?.name;
+// The first entry that a key can name; none is a part of itself to begin with.
+const firstName = (key, own) => model.lists[model.references[key]]?.find((entry) => entry.name !== own)?.name;
 
 // A value to begin with.
-function example(node, key = "") {
+function example(node, key = "", own = null) {
   const resolved = resolve(node), known = defaultOf(node), all = kinds(node);
   if (known !== undefined && isColour(all) && typeof known === "number") return [known, known, known];
   if (known !== undefined && fits(node, known)) return known;
-  if (all.length > 1) return example(all[0], key);
+  if (all.length > 1) return example(all[0], key, own);
   const kind = all[0], of = variants(kind);
   if (of.length) return exampleOfTable(of[0], { type: of[0].properties.type.const });
   const texts = choices(kind);
@@ -69,16 +70,16 @@ function example(node, key = "") {
   switch (kind.type) {
     case "number": case "integer": return kind.type === "integer" ? Math.max(1, kind.minimum ?? 1) : Math.min(kind.maximum ?? 0.5, Math.max(kind.minimum ?? 0.5, 0.5));
     case "boolean": return false;
-    case "array": return Array.from({ length: kind.minItems ?? 1 }, () => example(kind.items, key));
+    case "array": return Array.from({ length: kind.minItems ?? 1 }, () => example(kind.items, key, own));
     case "object": return exampleOfTable(kind, {});
-    default: return firstName(key) ?? "";
+    default: return firstName(key, own) ?? "";
   }
 }
 
 // A table with all that it needs; what it needs one of, the one that needs least.
 function exampleOfTable(kind, given) {
   const table = { ...given };
-  const add = (keys) => keys.forEach((key) => { if (!(key in table)) table[key] = example(kind.properties[key], key); });
+  const add = (keys) => keys.forEach((key) => { if (!(key in table)) table[key] = example(kind.properties[key], key, given.name); });
   add(kind.required ?? []);
   for (const rule of [kind, ...(kind.allOf ?? [])]) {
     const ways = (rule.oneOf ?? []).map((way) => way.required ?? []);
@@ -135,7 +136,7 @@ function make(tag, properties = {}, ...children) {
 const press = (text, label, act, more = {}) => make("button", { type: "button", textContent: text, title: label, "aria-label": label, onclick: act, ...more });
 const option = (value, text = value, title = "") => make("option", { value, textContent: text, title });
 
-// What shows values again where they are changed elsewhere, by undo say. Where somebody types or drags, it is left alone until that is over.
+// Controls that show values again when they are changed elsewhere, by undo say. One in which somebody types or drags is left alone until that is over.
 let shown = [];
 function show(element, path, update) {
   let isBusy = false;

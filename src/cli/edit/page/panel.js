@@ -1,6 +1,6 @@
 // The panel: which entries there are, the tree of the chosen one, and requests for changes, one after the other.
 
-// What is chosen: an entry by its list and name, and within its tree a node, by the path of the name that leads to it.
+// The choice: an entry by its list and name, and within its tree a node, by the path of the name that leads to it.
 const chosen = { list: "material", name: null, via: null };
 
 // ---- requests ----
@@ -68,7 +68,7 @@ function choose(list, name, via = null) {
   render(true);
 }
 
-// Where only numbers and colours differ, fields show them; else the panel is built anew.
+// If only numbers and colours differ, fields show them; else the panel is built anew.
 let outline = "";
 function render(isForced = false) {
   if (!model || !schema) return;
@@ -170,13 +170,13 @@ document.addEventListener("keydown", (event) => {
   const key = event.key.toLowerCase(), act = key === "z" ? (event.shiftKey ? "redo" : "undo") : key === "y" ? "redo" : key === "s" ? "save" : null;
   if (!act) return;
   event.preventDefault();
-  // What is typed counts as entered.
+  // A text that is being typed counts as entered.
   if (document.activeElement?.tagName === "INPUT") document.activeElement.dispatchEvent(new Event("change"));
   request(act);
 });
 window.addEventListener("beforeunload", (event) => { if (model?.unsaved) event.preventDefault(); });
 
-// What is wrong with the scene is told beside the fields. The picture of another page's change brings that change.
+// Mistakes in the scene are told beside the fields. The picture of another page's change brings that change.
 $("mistake").append($("message"));
 $("node-title").tabIndex = -1;
 canvas.setAttribute("aria-label", "the picture as the scene is now; drag to move it, turn the wheel to zoom");

@@ -46,14 +46,13 @@ impl Resolver<'_> {
         if !self.errors.is_empty() {
             return Ok(());
         }
-        for entry in written {
-            entry.check_parts(self)?;
-        }
         // Materials stand in the order of their entries, and behind them what some of those are made of.
         check_blends(&self.scene.materials).map_err(|(id, message)| {
             let entry = id.checked_sub(written.len()).map_or(id, |behind| of_entry[behind]);
             self.error(&written[entry].common().name.place, message)
-        })
+        })?;
+        // Checks of parts follow blends to their ends.
+        written.iter().try_for_each(|entry| entry.check_parts(self))
     }
 
     /// Makes each material with an opacity a blend of what it was and of nothing. Which entry each material belongs to that is added for it.
