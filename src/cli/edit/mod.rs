@@ -13,6 +13,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use gpt::plan::PlanOptions;
+use gpt::scene::{Guiding, LightChoice, RenderSettings};
 use gpt::{RenderOptions, Renderer, Stop};
 
 pub use arguments::EditArguments;
@@ -64,6 +65,20 @@ pub fn run(arguments: &EditArguments) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
+/// Settles what a render may learn before its first sample: learning would begin anew at each change. The picture's expectation is the same.
+fn learn_nothing(settings: &mut RenderSettings) {
+    let mut plain = settings.clone();
+    if plain.light_choice == LightChoice::Auto {
+        plain.light_choice = LightChoice::Tree;
+    }
+    if plain.guiding == Guiding::Auto {
+        plain.guiding = Guiding::Off;
+    }
+    if plain.check().is_ok() {
+        *settings = plain;
+    }
+}
+
 /// A scene that is rendered while it is edited.
 struct Editing<'a> {
     arguments: &'a EditArguments,
@@ -82,6 +97,7 @@ impl Editing<'_> {
         let options = gpt::load::LoadOptions { log: self.live.files().clone(), ..self.arguments.files.options(false) };
         let mut scene = self.file.scene(&options)?;
         settings::apply_to(self.arguments.size, &self.arguments.settings, &mut scene)?;
+        learn_nothing(&mut scene.render);
         if is_first {
             scene.warnings.iter().chain(&scene.precision_warnings()).for_each(|warning| terminal::warn(warning));
         }
