@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use gpt::plan::PlanOptions;
-use gpt::scene::{Guiding, LightChoice, RenderSettings};
+use gpt::scene::{Guiding, LightChoice, LightSampling, NumberOrAuto, RenderSettings};
 use gpt::{RenderOptions, Renderer, Stop};
 
 pub use arguments::EditArguments;
@@ -70,6 +70,12 @@ fn learn_nothing(settings: &mut RenderSettings) {
     let mut plain = settings.clone();
     if plain.light_choice == LightChoice::Auto {
         plain.light_choice = LightChoice::Tree;
+    }
+    if plain.light_sampling == LightSampling::Auto {
+        plain.light_sampling = LightSampling::Cone;
+    }
+    if plain.light_samples == NumberOrAuto::Auto {
+        plain.light_samples = NumberOrAuto::Number(1);
     }
     if plain.guiding == Guiding::Auto {
         plain.guiding = Guiding::Off;
