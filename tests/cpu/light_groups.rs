@@ -223,6 +223,6 @@ fn groups_that_cannot_be_are_refused() {
     let lights: String = (0..14)
         .map(|number| format!("[[light]]\ntype = \"point\"\nposition = [0, 5, 2]\nintensity = 4\nlight_group = \"g{number}\"\n"))
         .collect();
-    let said = read(&(GOOD.to_owned() + &lights)).err().expect("too many").to_string();
+    let said = read(&(GOOD.to_owned() + &lights)).expect_err("too many").to_string();
     assert!(said.contains("a scene has at most 16 light groups"), "{said}");
 }

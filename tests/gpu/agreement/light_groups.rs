@@ -61,6 +61,9 @@ fn means(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
     means
 }
 
+/// A way to render a scene: the means of its pixels.
+type Render<'a> = Box<dyn Fn(&Scene) -> Vec<[f32; 3]> + 'a>;
+
 /// By how much groups together differ from the picture, in parts of each number.
 fn apart(scene: &Scene, groups: &[&str], render: &dyn Fn(&Scene) -> Vec<[f32; 3]>) -> f64 {
     let picture = render(scene);
@@ -80,7 +83,7 @@ fn groups_add_up_to_the_picture_to_the_last_places() {
         let scene = in_groups(small(name, 32, SPP));
         let found = scene.light_group_names();
         let on_cpu = |scene: &Scene| means(&mut ReferenceRenderer::new(scene).expect("the scene is supported"), scene);
-        let mut ways: Vec<(&str, Box<dyn Fn(&Scene) -> Vec<[f32; 3]>>)> = vec![("reference", Box::new(on_cpu))];
+        let mut ways: Vec<(&str, Render<'_>)> = vec![("reference", Box::new(on_cpu))];
         if let Some(device) = DEVICE.as_ref() {
             let by = |options: PlanOptions| {
                 move |scene: &Scene| means(&mut GpuRenderer::on(device, scene, &options).expect("the scene fits"), scene)
