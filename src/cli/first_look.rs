@@ -6,7 +6,7 @@ use gpt::render::layers::render_layers;
 use gpt::{RenderOptions, Scene};
 
 use super::exit::Failure;
-use super::sequence::Ready;
+use super::ready::Ready;
 use super::view::{Live, Watching};
 
 /// Samples per pixel of it.

@@ -33,6 +33,7 @@ mod pictures;
 mod plan;
 mod progress;
 mod reading;
+mod ready;
 mod referee;
 #[cfg(test)]
 mod reference_pages;

@@ -24,8 +24,9 @@ use super::layers::Layers;
 use super::machine_progress::Needs;
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
 use super::progress::Progress;
+use super::ready::Ready;
 use super::render_summary::{tell, tell_of_error, write_stats};
-use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
+use super::sequence::{Done, Frame, Sequence, has_own_stats, tell_of_keyframes};
 use super::view::{Live, Phase, Watching};
 use super::{denoise, first_look, interrupt, intervals, layers, outputs, reading, settings, terminal, watch};
 

@@ -7,7 +7,7 @@ use gpt::load::SceneSource;
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure};
 use super::pictures::is_stdout;
-use super::sequence::Ready;
+use super::ready::Ready;
 use super::view::{Live, Phase};
 use super::{interrupt, terminal};
 

@@ -21,7 +21,7 @@ use edited_file::EditedFile;
 
 use super::exit::{Exit, Failure};
 use super::progress::Progress;
-use super::sequence::Ready;
+use super::ready::Ready;
 use super::view::{Live, Phase};
 use super::{interrupt, scene_error, settings, terminal};
 
