@@ -326,7 +326,7 @@ mod tests {
             let mut channels: Vec<_> = channels.collect();
             let place = part_channels().position(|name| name == SAMPLE_COUNT).expect("it is there");
             channels[place][0] = 4.0;
-            header.check_counts(&PartPixels { channels, kernels: Vec::new(), fixed: Vec::new() })
+            header.check_counts(&PartPixels { channels, rendered: Vec::new(), fixed: Vec::new() })
         };
         for wrong in [f32::NAN, -24.0, 0.0, 3.0, 4.5, f32::INFINITY] {
             let said = check(wrong).expect_err("it is refused");
