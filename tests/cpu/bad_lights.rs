@@ -93,8 +93,33 @@ fn numbers_and_directions_out_of_range_name_the_key() {
         ("[[light]]\ntype = \"sky\"\nzenith = 1\nhorizon = 1".into(), "ground"),
         ("[[light]]\ntype = \"environment\"\nradiance = 1\nscale = -2".into(), "light[0].scale"),
         ("[[light]]\ntype = \"environment\"\nradiance = 1\nrotate = inf".into(), "light[0].rotate"),
-        ("[[light]]\ntype = \"environment\"".into(), "an environment needs the key `radiance` or `file`"),
-        ("[[light]]\ntype = \"environment\"\nradiance = 1\nfile = \"a.exr\"".into(), "either `radiance` or `file`"),
+        ("[[light]]\ntype = \"environment\"".into(), "an environment needs the key `radiance`, `file` or `daylight`"),
+        ("[[light]]\ntype = \"environment\"\nradiance = 1\nfile = \"a.exr\"".into(), "either `radiance`, `file` or `daylight`"),
+        (
+            "[[light]]\ntype = \"environment\"\nradiance = 1\ndaylight = { to_sun = [0, 1, 0] }".into(),
+            "either `radiance`, `file` or `daylight`",
+        ),
+        (
+            "[[light]]\ntype = \"environment\"\ndaylight = { to_sun = [0, -1, 1] }".into(),
+            "the sun is 45.0 degrees below the horizon",
+        ),
+        ("[[light]]\ntype = \"environment\"\ndaylight = { to_sun = [0, 0, 0] }".into(), "a direction cannot have length 0"),
+        (
+            "[[light]]\ntype = \"environment\"\ndaylight = { turbidity = 3 }".into(),
+            "either `to_sun`, or `time`, `latitude` and `longitude`",
+        ),
+        (
+            "[[light]]\ntype = \"environment\"\ndaylight = { to_sun = [0, 1, 0], turbidity = 1 }".into(),
+            "a turbidity from 2 to 10",
+        ),
+        (
+            "[[light]]\ntype = \"environment\"\ndaylight = { time = \"noon\", latitude = 1, longitude = 2 }".into(),
+            "expected a time like \"2026-06-21T12:00:00+02:00\"",
+        ),
+        (
+            "[[light]]\ntype = \"environment\"\ndaylight = { time = \"2026-12-21T00:00Z\", latitude = 50, longitude = 0 }".into(),
+            "below the horizon",
+        ),
         (
             "[[light]]\ntype = \"environment\"\nradiance = 1\n[[light]]\ntype = \"sky\"\nzenith = 1\nhorizon = 1\nground = 1"
                 .into(),

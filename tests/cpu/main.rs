@@ -13,6 +13,7 @@ mod bad_scenes;
 mod blends;
 mod builtin_scenes;
 mod cameras;
+mod daylight;
 mod deformations;
 mod flip;
 mod hierarchy;

@@ -17,6 +17,7 @@
 mod access;
 mod builtin;
 mod builtin_scenes;
+mod daylight;
 mod deformation_file;
 mod encoding;
 mod environment_map;

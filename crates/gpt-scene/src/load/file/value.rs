@@ -61,6 +61,8 @@ rules! {
     }
     Azimuth "an angle from -360 to 360 (degrees)" { const MINIMUM: f64 = -360.0; const MAXIMUM: f64 = 360.0; }
     Elevation "an angle from -90 to 90 (degrees)" { const MINIMUM: f64 = -90.0; const MAXIMUM: f64 = 90.0; }
+    Longitude "an angle from -180 to 180 (degrees)" { const MINIMUM: f64 = -180.0; const MAXIMUM: f64 = 180.0; }
+    Turbidity "a turbidity from 2 to 10" { const MINIMUM: f64 = 2.0; const MAXIMUM: f64 = 10.0; }
     HalfAngle "an angle above 0, at most 90 (degrees)" {
         const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 90.0; const ABOVE_MINIMUM: bool = true;
     }

@@ -248,6 +248,7 @@ impl Converter<'_> {
         Ok(environment::Keys {
             radiance: None,
             file: Some(place.at(FileOr::OnDisk(path))),
+            daylight: None,
             scale,
             rotate: Some(plugin.possible(Number::of(degrees))?),
             transform: plugin.possible(TransformEntry::of_map(&transform, &place))?,

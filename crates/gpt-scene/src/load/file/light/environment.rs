@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::daylight::{DaylightKeys, sun_of};
 use super::keys::LightKeys;
 use crate::load::environment_map;
 use crate::load::error::SceneError;
@@ -22,18 +23,20 @@ use crate::load::place::Place;
 use crate::picture_file::Envelope;
 use crate::scene::animation::LightTrack;
 use crate::scene::light::is_rotation;
-use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
+use crate::scene::{DirectionalLight, Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
 
-/// Radiance from outside the scene: either `radiance` or `file`.
+/// Radiance from outside the scene: either `radiance`, `file` or `daylight`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "EnvironmentLight")]
-#[schemars(extend("allOf" = [{ "oneOf": [{ "required": ["radiance"] }, { "required": ["file"] }] }], "dependentRequired" = { "interpolation": ["keyframes"] }))]
+#[schemars(extend("allOf" = [{ "oneOf": [{ "required": ["radiance"] }, { "required": ["file"] }, { "required": ["daylight"] }] }], "dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
     /// Radiance that is equal in all directions.
     pub radiance: Option<Located<Rgb<NonNegative>>>,
     /// A lat-long map, EXR or HDR: u = atan2(x, −z)/2π (mod 1), v = acos(y)/π from the top row, interpolated bilinearly.
     pub file: Option<Located<FileOr<EmbeddedFile>>>,
+    /// A clear sky with its sun.
+    pub daylight: Option<Located<DaylightKeys>>,
     /// Factor of the radiance, 1 when left out.
     pub scale: Option<Located<Checked<NonNegative>>>,
     /// Degrees about +Y, counter-clockwise seen from above.
@@ -67,6 +70,7 @@ impl LightKeys for Keys {
 
     const EXAMPLES: &'static [&'static str] = &[
         "radiance = [0.2, 0.5, 1]",
+        "daylight = { to_sun = [1, 1.5, -0.6], turbidity = 4 }\nrotate = 70",
         "file = \"map.exr\"\nscale = 1.5\nrotate = 40",
         "file = \"map.exr\"\nrows = \"to_poles\"\nmirror = true",
         "file = \"map.exr\"\nrotate = 20\ntransform = [{ rotate = [1, 0, 0], degrees = 90 }, { rotate = [1, 2, -0.5], degrees = 35 }]",
@@ -78,21 +82,32 @@ impl LightKeys for Keys {
         let rotation_degrees = self.rotate.map_or(0.0, |rotate| rotate.0);
         let mirrored = self.mirror.as_ref().is_some_and(|mirror| mirror.value);
         let turn = self.transform.as_ref().map(|written| turn(resolver, written)).transpose()?;
-        let radiance = match (&self.radiance, &self.file) {
-            (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
-            (None, Some(file)) => {
+        let radiance = match (&self.radiance, &self.file, &self.daylight) {
+            (None, None, Some(keys)) => {
+                let daylight = keys.value.daylight(resolver, &keys.place)?;
+                let map = keys.place.at(FileOr::InMemory(daylight.map(keys.value.has_sun()).into()));
+                return Ok(Environment { turn, ..self.map(resolver, &map, (scale, rotation_degrees, mirrored))? });
+            }
+            (Some(radiance), None, None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
+            (None, Some(file), None) => {
                 return Ok(Environment { turn, ..self.map(resolver, file, (scale, rotation_degrees, mirrored))? });
             }
-            (Some(radiance), Some(_)) => {
-                return Err(resolver.error(&radiance.place, "an environment has either `radiance` or `file`"));
+            (None, None, None) => {
+                return Err(resolver.error(span, "an environment needs the key `radiance`, `file` or `daylight`"));
             }
-            (None, None) => return Err(resolver.error(span, "an environment needs the key `radiance` or `file`")),
+            (radiance, ..) => {
+                let place = radiance.as_ref().map_or(span, |radiance| &radiance.place);
+                return Err(resolver.error(place, "an environment has either `radiance`, `file` or `daylight`"));
+            }
         };
         Ok(Environment { radiance, rotation_degrees, turn, rows: self.rows.map_or(MapRows::Inside, MapRows::from), mirrored })
     }
 
     fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
         let keyframes = self.keyframes.as_ref();
+        if let (Some(keyframes), Some(_)) = (keyframes, &self.daylight) {
+            return Err(resolver.error(&keyframes.place, "an environment with `daylight` has no `keyframes`"));
+        }
         let mut of_keys = keyframes.iter().flat_map(|keys| &keys.value).filter_map(|entry| entry.value.radiance.as_ref());
         if let Some(radiance) = of_keys.next().filter(|_| self.radiance.is_none()) {
             return Err(resolver.error(&radiance.place, "only keyframes of an environment with `radiance` state `radiance`"));
@@ -157,6 +172,7 @@ impl Keys {
         Self {
             radiance: Some(radiance),
             file: None,
+            daylight: None,
             scale: None,
             rotate: None,
             transform: None,
@@ -166,6 +182,13 @@ impl Keys {
             interpolation: None,
             light_group: None,
         }
+    }
+
+    /// The sun of `daylight`, turned as the sky is.
+    pub(super) fn sun(&self, resolver: &Resolver<'_>, environment: &Environment) -> Option<DirectionalLight> {
+        let keys = self.daylight.as_ref().filter(|keys| keys.value.has_sun())?;
+        let daylight = keys.value.daylight(resolver, &keys.place).ok()?;
+        Some(sun_of(&daylight, environment, self.scale.as_ref().map_or(1.0, |scale| scale.value.0)))
     }
 
     fn map(

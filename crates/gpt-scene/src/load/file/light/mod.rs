@@ -1,5 +1,6 @@
 //! `[[light]]`: a file for each light that is not a surface, with the keys it is written by.
 
+pub mod daylight;
 pub mod directional;
 pub mod environment;
 mod keys;
@@ -80,6 +81,14 @@ impl LightEntry {
         matches!(self, Self::Environment(_) | Self::Sky(_))
     }
 
+    /// The sun of a sky, as a light of its own.
+    fn sun(&self, resolver: &Resolver<'_>, light: &Light) -> Option<Light> {
+        match (self, light) {
+            (Self::Environment(keys), Light::Environment(environment)) => keys.sun(resolver, environment).map(Light::Directional),
+            _ => None,
+        }
+    }
+
     /// The node that takes the light along; None of lights without a place.
     pub fn node_mut(&mut self) -> Option<&mut Option<Located<String>>> {
         match self {
@@ -126,10 +135,13 @@ impl Resolver<'_> {
             let track = self.note(track).flatten();
             Arc::make_mut(&mut self.scene.animation).lights.extend(track);
             let light = self.note(light);
+            let sun = light.as_ref().and_then(|light| entry.value.sun(self, light));
             let group = self.light_group(entry.value.light_group());
             let group = self.note(group).unwrap_or(0);
-            self.scene.light_groups.put_light(self.scene.lights.len(), group);
-            self.scene.lights.extend(light);
+            for light in light.into_iter().chain(sun) {
+                self.scene.light_groups.put_light(self.scene.lights.len(), group);
+                self.scene.lights.push(light);
+            }
         }
     }
 }
