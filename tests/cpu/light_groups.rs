@@ -129,7 +129,7 @@ fn a_group_that_is_missing_is_noticed() {
     }
 }
 
-/// Where no light is sampled, paths do not depend on lights: they find what they find where all others are off.
+/// Paths do not depend on lights where none is sampled: they find what they find with all others off.
 #[test]
 fn a_group_is_the_scene_with_all_other_lights_off() {
     let mut scene = read(GOOD).expect("a scene");

@@ -207,7 +207,7 @@ fn gltf_keeps_a_point_with_a_profile() {
     assert!(difference(point(&turned), point(&scene)) > 0.05);
 }
 
-/// Of EXT_lights_ies: where the light of an untransformed node goes, its factor and colour, files beside and within, and what is wrong.
+/// Lights of EXT_lights_ies: where one of an untransformed node shines, its factor and colour, files beside and within, and what is wrong.
 #[test]
 fn gltf_lights_shine_along_their_nodes() {
     let folder = Folder::new("", LAMP);
