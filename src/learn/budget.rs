@@ -23,6 +23,15 @@ const PATHS_IN_A_HIERARCHY: f64 = 2.0;
 const PATHS_OF_A_CARD: f64 = 100.0;
 /// Paths in whose time the reference's hierarchy takes in a triangle.
 const PATHS_OF_TRIANGLE: f64 = 0.1;
+/// Seconds of a time limit that pass before the first sample, without learning: the driver, and for each triangle reading, packing and the
+/// device's hierarchy (two cores; docs/performance.md, "What does the CPU's part take?").
+const SECONDS_OF_SET_UP: f64 = 0.15;
+const SECONDS_OF_TRIANGLE: f64 = 3.5e-6;
+/// Seconds in which the hierarchy that learning needs takes in a triangle.
+const SECONDS_OF_HIERARCHY: f64 = 1.3e-6;
+
+/// Counted work of the cheapest paths: of two vertices that meet next to nothing.
+const LEAST_WORK_OF_PATH: f64 = 128.0;
 
 /// Paths below which nothing is learned: even the least that can be found out takes the time of as many.
 pub const LEAST_BUDGET: f64 = 16_384.0;
@@ -55,6 +64,8 @@ pub struct Budget {
     paths: f64,
     /// Counted work that the time limit leaves for learning, over all threads.
     work: Option<f64>,
+    /// A guide is to be learned too, so that the choice of how lights are drawn from has a part of this alone.
+    keeps_a_part_for_the_guide: bool,
 }
 
 impl Budget {
@@ -72,35 +83,46 @@ impl Budget {
         };
         let paths = SHARE * pixel_count(scene) as f64 * f64::from(samples) / pace - PATHS_OF_TRIANGLE * triangles as f64;
         let threads = rayon::current_num_threads() as f64;
-        let work = effort.time_limit.map(|limit| SHARE * limit.as_secs_f64() * threads * work::SECOND as f64);
-        Self { paths: paths.max(0.0), work }
+        let work = effort.time_limit.map(|limit| seconds(limit.as_secs_f64(), triangles as f64) * threads * work::SECOND as f64);
+        Self { paths: paths.max(0.0), work, keeps_a_part_for_the_guide: false }
     }
 
-    /// Paths that may be traced in all, before it is known what one of them takes.
+    /// Paths that may be traced in all, before it is known what one of them takes: where not even the cheapest are affordable, nothing is made
+    /// ready to find out.
     pub fn most_paths(self) -> f64 {
-        self.paths
+        self.paths(LEAST_WORK_OF_PATH)
     }
 
     /// Paths that may be traced in all, where one of them takes so much work.
     pub fn paths(self, work_of_path: f64) -> f64 {
-        self.work.map_or(self.paths, |work| self.paths.min(work / work_of_path.max(1.0)))
+        let paths = self.work.map_or(self.paths, |work| self.paths.min(work / work_of_path.max(1.0)));
+        if self.keeps_a_part_for_the_guide { (SHARE_OF_LIGHTS * paths).max(PATHS_OF_LIGHTS.min(paths)) } else { paths }
+    }
+
+    /// A time limit ends the render.
+    pub fn is_limited_by_time(self) -> bool {
+        self.work.is_some()
     }
 
     /// The budget without so many paths.
     #[must_use]
     pub fn after(self, paths: f64, work_of_path: f64) -> Self {
-        Self { paths: (self.paths - paths).max(0.0), work: self.work.map(|work| (work - paths * work_of_path).max(0.0)) }
+        let work = self.work.map(|work| (work - paths * work_of_path).max(0.0));
+        Self { paths: (self.paths - paths).max(0.0), work, ..self }
     }
 
     /// The part of it for the choice of how lights are drawn from, where a guide `is_wanted` too.
     #[must_use]
     pub fn of_lights(self, guide_is_wanted: bool) -> Self {
-        if !guide_is_wanted {
-            return self;
-        }
-        let paths = (SHARE_OF_LIGHTS * self.paths).max(PATHS_OF_LIGHTS.min(self.paths));
-        Self { paths, work: self.work.map(|work| work * if self.paths > 0.0 { paths / self.paths } else { 0.0 }) }
+        Self { keeps_a_part_for_the_guide: guide_is_wanted, ..self }
     }
+}
+
+/// Seconds that may be spent on learning where a render of so many triangles ends after `limit` seconds: a share of what set-up leaves, of
+/// which the hierarchy for learning takes the first part.
+fn seconds(limit: f64, triangles: f64) -> f64 {
+    let of_samples = limit - SECONDS_OF_SET_UP - SECONDS_OF_TRIANGLE * triangles;
+    (SHARE * of_samples - SECONDS_OF_HIERARCHY * triangles).max(0.0)
 }
 
 #[cfg(test)]
@@ -123,12 +145,15 @@ mod tests {
         assert!((paths(Effort::default()) - share(6.0)).abs() < 1.0, "{}", paths(Effort::default()));
         let on_card = Effort { pace: Pace::Card, ..Effort::default() };
         assert!((paths(on_card) - share(100.0)).abs() < 1.0);
-        // A second of a thread is 2²⁶ units of work: of paths of 1,000 units each, a fifth.
-        let limited = Effort { time_limit: Some(Duration::from_secs(1)), ..Effort::default() };
+        // A second of a thread is 2²⁶ units of work: of paths of 1,000 units each, a fifth of what set-up leaves.
+        let limited = |milliseconds| paths(Effort { time_limit: Some(Duration::from_millis(milliseconds)), ..Effort::default() });
         let of_a_second = 0.2 * f64::from(1 << 26) / 1000.0 * rayon::current_num_threads() as f64;
-        assert!((paths(limited) - of_a_second.min(share(6.0))).abs() < 1.0);
-        let very_limited = Effort { time_limit: Some(Duration::from_millis(10)), ..Effort::default() };
-        assert!((paths(very_limited) - 0.01 * of_a_second).abs() < 1.0);
+        let of_set_up = SECONDS_OF_SET_UP + SECONDS_OF_TRIANGLE * triangle_count(&cornell) as f64;
+        assert!((limited(1000) - ((1.0 - of_set_up) * of_a_second).min(share(6.0))).abs() < 20.0);
+        assert!((limited(250) - (0.25 - of_set_up) * of_a_second).abs() < 20.0);
+        assert_eq!(limited(100), 0.0);
+        // 100,000 triangles leave nothing of a second, and most of ten seconds.
+        assert_eq!([1.0, 10.0].map(|limit| (10.0 * seconds(limit, 1e5)).round()), [0.0, 18.0]);
     }
 
     #[test]
@@ -151,7 +176,11 @@ mod tests {
         assert!(close(of_whole.most_paths(), 100.0));
         assert!(close(of_whole.after(50.0 * alone, 1.0).most_paths(), 50.0));
         // The choice of lights has what it needs first, and half of what there is in long renders.
-        let of_lights = |paths: f64| Budget { paths, work: None }.of_lights(true).most_paths();
-        assert_eq!([30_000.0, 80_000.0, 1e6].map(of_lights), [30_000.0, 65_536.0, 5e5]);
+        let of_lights = |paths: f64, work: Option<f64>| {
+            Budget { paths, work, keeps_a_part_for_the_guide: false }.of_lights(true).paths(1000.0)
+        };
+        assert_eq!([30_000.0, 80_000.0, 1e6].map(|paths| of_lights(paths, None)), [30_000.0, 65_536.0, 5e5]);
+        // A time limit decides by work, and the choice of lights comes first there too.
+        assert_eq!([30_000.0, 80_000.0, 1e6].map(|paths| of_lights(1e9, Some(1000.0 * paths))), [30_000.0, 65_536.0, 5e5]);
     }
 }

@@ -33,9 +33,9 @@ const ROUNDS: usize = 5;
 /// After so many of them a trial run looks whether guiding pays, where it has to. Error × cost with the
 /// guide, over that without one, may be so much at most, or learning ends and paths are not guided. A guide
 /// still improves, so early looks allow more.
-const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.85), (ROUNDS, MOST_LOSS)];
-/// Largest such ratio for a guide of all rounds: learning takes time as well.
-const MOST_LOSS: f64 = 0.8;
+const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.9), (ROUNDS, MOST_LOSS)];
+/// Largest such ratio for a guide of all rounds. Learning is over by then, so that the guide has to gain no more than the noise of the trial run.
+const MOST_LOSS: f64 = 0.9;
 /// Paths of the last round for each pixel of the picture, where the scene does not say how many there are.
 const PATHS_OF_PIXEL: u32 = 8;
 const FEWEST_PATHS: u32 = 1 << 14;
@@ -88,10 +88,12 @@ pub fn train(integrator: &mut Integrator, budget: Budget, work_of_path: Option<f
     let not_at_all = |because: String| Learned { guide: None, because: Some(because) };
     let has_to_pay = integrator.scene().render.guiding == Guiding::Auto;
     let of_path = work_of_path.unwrap_or_else(|| work_of_path::of_path(integrator));
-    let budget = has_to_pay.then(|| budget.paths(of_path));
-    if budget.is_some_and(|paths| paths < LEAST_PATHS) {
+    if has_to_pay && budget.paths(of_path) < LEAST_PATHS {
         return not_at_all(TOO_SHORT.to_owned());
     }
+    // A guide that was asked for is learned in any case, and by as many paths as it takes unless time is short.
+    let is_bounded = has_to_pay || budget.is_limited_by_time();
+    let budget = is_bounded.then(|| budget.paths(of_path).max(LEAST_PATHS));
     let Some(rounds) = affordable(rounds(integrator.scene(), budget), of_path, has_to_pay) else {
         return not_at_all(trial::too_much_work("learning", of_path));
     };
