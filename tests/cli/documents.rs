@@ -276,7 +276,7 @@ fn documents_name_what_exists() {
 #[test]
 fn the_readmes_scene_is_the_file_it_names() {
     let readme = fs::read_to_string(project().join("README.md")).expect("the README");
-    let scene = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene in the README");
+    let scene = readme.split("```toml hello.toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene in the README");
     assert_eq!(scene, fs::read_to_string(project().join("docs/hello.toml")).expect("the scene's file"));
     let check = Command::new(env!("CARGO_BIN_EXE_gpt")).args(["check", "docs/hello.toml"]).current_dir(project()).output();
     let check = check.expect("the program starts");
