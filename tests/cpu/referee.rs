@@ -187,6 +187,9 @@ fn the_suite_raises_no_more_false_alarms_than_it_says() {
                 alarms[run as usize].push(test.name);
             }
         }
+        // A run takes an hour and more: what is known of it shows.
+        let of_test = alarms.iter().filter(|names| names.contains(&test.name)).count();
+        println!("{}: {of_test} of {runs}", test.name);
     }
     let alarmed = alarms.iter().filter(|names| !names.is_empty()).count();
     println!("{alarmed} of {runs} runs had a false alarm, where {OF_SUITE} of them may: {:?}", alarms.concat());
