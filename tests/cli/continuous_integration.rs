@@ -144,7 +144,11 @@ fn a_download_with_another_sum_is_refused() {
     let output = download("absent", "");
     assert!(!output.status.success());
     let none = run(&place, &format!("'{}' {repository} 99.0.0 none", project().join("scripts/download-release").display()), &[]);
-    assert!(!none.status.success() && text(&none.stderr).contains("cannot be fetched: is there a release 99.0.0?"), "{}", text(&none.stderr));
+    assert!(
+        !none.status.success() && text(&none.stderr).contains("cannot be fetched: is there a release 99.0.0?"),
+        "{}",
+        text(&none.stderr)
+    );
 }
 
 #[test]

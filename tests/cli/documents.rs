@@ -12,8 +12,8 @@ const FOLDERS: [&str; 10] =
     ["src/", "crates/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
 /// Documents about the past: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
-/// Flags of cargo, openjd, docker, gh, oiiotool and Blender that documents use.
-const FLAGS_OF_OTHERS: [&str; 14] = [
+/// Flags of cargo, openjd, docker, gh, curl, oiiotool and Blender that documents use.
+const FLAGS_OF_OTHERS: [&str; 17] = [
     "--background",
     "--release",
     "--locked",
@@ -28,6 +28,9 @@ const FLAGS_OF_OTHERS: [&str; 14] = [
     "--info",
     "--repo",
     "--rm",
+    "--user",
+    "--proto",
+    "--tlsv1",
 ];
 
 /// The flags of each command of the program, from its help.
@@ -276,7 +279,8 @@ fn documents_name_what_exists() {
 #[test]
 fn the_readmes_scene_is_the_file_it_names() {
     let readme = fs::read_to_string(project().join("README.md")).expect("the README");
-    let scene = readme.split("```toml hello.toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene in the README");
+    let scene =
+        readme.split("```toml hello.toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene in the README");
     assert_eq!(scene, fs::read_to_string(project().join("docs/hello.toml")).expect("the scene's file"));
     let check = Command::new(env!("CARGO_BIN_EXE_gpt")).args(["check", "docs/hello.toml"]).current_dir(project()).output();
     let check = check.expect("the program starts");
