@@ -287,6 +287,19 @@ fn the_readmes_scene_is_the_file_it_names() {
     assert!(check.status.success(), "{}", text(&check.stderr));
 }
 
+/// The badge of the README and its words are those of one run of the referee, whose result the table has too.
+#[test]
+fn the_badge_says_what_the_readme_says() {
+    let readme = fs::read_to_string(project().join("README.md")).expect("the README");
+    let badge = fs::read_to_string(project().join("docs/referee/gpt.svg")).expect("the badge");
+    let agree = badge.split_once("gpt referee: ").and_then(|(_, rest)| rest.split_once(" agree")).expect("what the badge says").0;
+    let (agreeing, judged) = agree.split_once(" of ").expect("two numbers");
+    assert!(readme.contains(&format!("The referee: {agree} tests agree")), "{agree}");
+    let (agreeing, judged): (u32, u32) = (agreeing.parse().expect("a number"), judged.parse().expect("a number"));
+    let row = format!("| gpt, CPU reference and llvmpipe | {agreeing} | {} |", judged - agreeing);
+    assert!(readme.contains(&row), "{row}");
+}
+
 #[test]
 fn a_document_with_faults_is_noticed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
