@@ -13,6 +13,10 @@ const BACKENDS: Backends = Backends::VULKAN.union(Backends::METAL).union(Backend
 /// lanes' paths wrong, without a word.
 const MOST_SOFTWARE_LANES: u32 = 8;
 
+/// The oldest release of Mesa whose software driver renders. Those of 22.3.6 and 24.0.5 lose samples of some pixels, other ones in each render,
+/// without a word; those of 25.0.7 and 25.2.8 lose none.
+const OLDEST_SOFTWARE_MESA: u32 = 25;
+
 /// Facts about an adapter that a person wants to know before trusting it with a scene. Sizes are in bytes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AdapterSummary {
@@ -160,13 +164,26 @@ fn obstacle(adapter: &Adapter) -> Option<String> {
         return Some("does not meet the WebGPU standard".to_owned());
     }
     let info = adapter.get_info();
-    let wide = info.device_type == DeviceType::Cpu && info.subgroup_min_size > MOST_SOFTWARE_LANES;
-    wide.then(|| {
+    if info.device_type != DeviceType::Cpu {
+        return None;
+    }
+    if let Some(release) = mesa_release(&info.driver_info).filter(|&release| release < OLDEST_SOFTWARE_MESA) {
+        return Some(format!(
+            "loses samples of pictures in Mesa {release}; it takes Mesa {OLDEST_SOFTWARE_MESA} or newer \
+             (Debian 12: from bookworm-backports, Ubuntu 24.04: from noble-updates)"
+        ));
+    }
+    (info.subgroup_min_size > MOST_SOFTWARE_LANES).then(|| {
         format!(
             "leaves parts of pictures black with vectors of {} lanes; unset LP_NATIVE_VECTOR_WIDTH or set it to 256",
             info.subgroup_min_size
         )
     })
+}
+
+/// The first number of Mesa's version, as drivers tell it: `Mesa 24.0.5-1ubuntu1 (LLVM 17.0.6)` is 24.
+fn mesa_release(driver_info: &str) -> Option<u32> {
+    driver_info.split_once("Mesa ")?.1.split('.').next()?.parse().ok()
 }
 
 fn summarise(adapter: &Adapter) -> AdapterSummary {
@@ -212,6 +229,14 @@ mod tests {
             [DeviceType::Cpu, DeviceType::Other, DeviceType::IntegratedGpu, DeviceType::DiscreteGpu].map(AdapterKind::from);
         kinds.sort();
         assert_eq!(kinds, [AdapterKind::Discrete, AdapterKind::Integrated, AdapterKind::Other, AdapterKind::Software]);
+    }
+
+    #[test]
+    fn the_release_of_mesa_is_read_from_what_drivers_tell() {
+        assert_eq!(mesa_release("Mesa 24.0.5-1ubuntu1 (LLVM 17.0.6)"), Some(24));
+        assert_eq!(mesa_release("Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)"), Some(25));
+        assert_eq!(mesa_release("570.133.20"), None);
+        assert!(mesa_release("Mesa 22.3.6 (LLVM 15.0.6)").is_some_and(|release| release < OLDEST_SOFTWARE_MESA));
     }
 
     #[test]

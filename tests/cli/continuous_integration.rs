@@ -1,5 +1,6 @@
 //! The commands that `action.yml` and `docs/ci.md` give to other systems, run as they stand there.
 
+use super::installing::pack;
 use super::*;
 
 fn project() -> &'static Path {
@@ -75,23 +76,12 @@ fn spoil(place: &Workplace) {
     fs::write(place.path("tests/scenes/lit.toml"), scene().replace("reflectance = 0.5", "reflectance = 0.55")).expect("a scene");
 }
 
-/// A release as GitHub serves it, in the place: an archive with a program that passes on to the one under test, and its sum. The address of the
-/// repository that has it.
+/// A release as GitHub serves it, in the place: an archive of scripts/archive with a program that passes on to the one under test, and its sum. The
+/// address of the repository that has it.
 #[cfg(target_os = "linux")]
 fn release(place: &Workplace) -> String {
-    let make = r#"
-        name=gpt-$version-$(uname -m)-unknown-linux-gnu
-        mkdir -p "$name" "releases/download/v$version"
-        printf '#!/bin/sh\nexec "%s" "$@"\n' "$program" >"$name/gpt"
-        chmod +x "$name/gpt"
-        tar czf "releases/download/v$version/$name.tar.gz" "$name"
-        rm -r "$name"
-        cd "releases/download/v$version"
-        sha256sum "$name.tar.gz" >"$name.tar.gz.sha256"
-    "#;
-    let environment = [("version", env!("CARGO_PKG_VERSION")), ("program", env!("CARGO_BIN_EXE_gpt"))];
-    let made = run(place, make, &environment.map(|(name, value)| (name.to_owned(), value.to_owned())));
-    assert!(made.status.success(), "{}", text(&made.stderr));
+    let folder = place.path(&format!("releases/download/v{}", env!("CARGO_PKG_VERSION")));
+    pack(place, &format!("{}-unknown-linux-gnu", std::env::consts::ARCH), &folder);
     format!("file://{}", place.0.path().display())
 }
 
@@ -154,7 +144,11 @@ fn a_download_with_another_sum_is_refused() {
     let output = download("absent", "");
     assert!(!output.status.success());
     let none = run(&place, &format!("'{}' {repository} 99.0.0 none", project().join("scripts/download-release").display()), &[]);
-    assert!(!none.status.success() && text(&none.stderr).contains("cannot be fetched"), "{}", text(&none.stderr));
+    assert!(
+        !none.status.success() && text(&none.stderr).contains("cannot be fetched: is there a release 99.0.0?"),
+        "{}",
+        text(&none.stderr)
+    );
 }
 
 #[test]

@@ -12,8 +12,8 @@ const FOLDERS: [&str; 10] =
     ["src/", "crates/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
 /// Documents about the past: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
-/// Flags of cargo, openjd, docker, gh, oiiotool and Blender that documents use.
-const FLAGS_OF_OTHERS: [&str; 14] = [
+/// Flags of cargo, openjd, docker, gh, curl, oiiotool and Blender that documents use.
+const FLAGS_OF_OTHERS: [&str; 17] = [
     "--background",
     "--release",
     "--locked",
@@ -28,6 +28,9 @@ const FLAGS_OF_OTHERS: [&str; 14] = [
     "--info",
     "--repo",
     "--rm",
+    "--user",
+    "--proto",
+    "--tlsv1",
 ];
 
 /// The flags of each command of the program, from its help.
@@ -276,11 +279,25 @@ fn documents_name_what_exists() {
 #[test]
 fn the_readmes_scene_is_the_file_it_names() {
     let readme = fs::read_to_string(project().join("README.md")).expect("the README");
-    let scene = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene in the README");
+    let scene =
+        readme.split("```toml hello.toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene in the README");
     assert_eq!(scene, fs::read_to_string(project().join("docs/hello.toml")).expect("the scene's file"));
     let check = Command::new(env!("CARGO_BIN_EXE_gpt")).args(["check", "docs/hello.toml"]).current_dir(project()).output();
     let check = check.expect("the program starts");
     assert!(check.status.success(), "{}", text(&check.stderr));
+}
+
+/// The badge of the README and its words are those of one run of the referee, whose result the table has too.
+#[test]
+fn the_badge_says_what_the_readme_says() {
+    let readme = fs::read_to_string(project().join("README.md")).expect("the README");
+    let badge = fs::read_to_string(project().join("docs/referee/gpt.svg")).expect("the badge");
+    let agree = badge.split_once("gpt referee: ").and_then(|(_, rest)| rest.split_once(" agree")).expect("what the badge says").0;
+    let (agreeing, judged) = agree.split_once(" of ").expect("two numbers");
+    assert!(readme.contains(&format!("The referee: {agree} tests agree")), "{agree}");
+    let (agreeing, judged): (u32, u32) = (agreeing.parse().expect("a number"), judged.parse().expect("a number"));
+    let row = format!("| gpt, CPU reference and llvmpipe | {agreeing} | {} |", judged - agreeing);
+    assert!(readme.contains(&row), "{row}");
 }
 
 #[test]
