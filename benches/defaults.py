@@ -140,7 +140,9 @@ def main():
     options = arguments()
     if options.table:
         for path in options.table:
-            print(table(json.loads(path.read_text(encoding="utf-8"))))
+            report = json.loads(path.read_text(encoding="utf-8"))
+            for name, part in ({"": report} if "scenes" in report else report).items():
+                print(f"{name}\n\n{table(part)}\n")
         return
     mi.set_variant("scalar_rgb")
     version = subprocess.run([options.gpt, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]

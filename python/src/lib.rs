@@ -5,9 +5,11 @@
 mod array;
 mod errors;
 mod layers;
+mod measuring;
 mod picture;
 mod process;
 mod scene;
+mod settings;
 mod watching;
 
 use pyo3::prelude::*;
@@ -24,7 +26,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scene::Scene>()?;
     module.add_class::<scene::Rendered>()?;
     module.add_function(wrap_pyfunction!(picture::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(measuring::measured, module)?)?;
     module.add_function(wrap_pyfunction!(scene::verify, module)?)?;
+    module.add_function(wrap_pyfunction!(settings::settings, module)?)?;
     module.add_function(wrap_pyfunction!(scene::builtin_scenes, module)?)?;
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use gpt::choice::Choice;
 use gpt::film::Layer;
-use gpt::load::{LoadOptions, SceneError, builtin_names, load_toml_str, load_with};
+use gpt::load::{LoadOptions, ModelView, SceneError, builtin_names, load_toml_str, load_with};
 use gpt::plan::PlanOptions;
 use gpt::render::layers::render_layers;
 use gpt::render::stats::Stats;
@@ -19,11 +19,12 @@ use crate::errors::raised;
 use crate::layers::arrays;
 use crate::picture::Picture;
 use crate::process;
+use crate::settings::assigned;
 use crate::watching::watched;
 
 /// A scene that was read.
 #[pyclass(frozen, module = "gpt_pathtracer._native")]
-pub struct Scene(gpt::Scene);
+pub struct Scene(pub gpt::Scene);
 
 /// A picture, its layers by channel, and what the render did, as JSON.
 #[pyclass(frozen, get_all, module = "gpt_pathtracer._native")]
@@ -33,7 +34,8 @@ pub struct Rendered {
     stats: String,
 }
 
-fn device_of(name: &str) -> PyResult<DeviceChoice> {
+/// The device of this name.
+pub fn device_of(name: &str) -> PyResult<DeviceChoice> {
     match name {
         "auto" => Ok(DeviceChoice::Auto),
         "gpu" => Ok(DeviceChoice::Gpu),
@@ -47,9 +49,20 @@ fn device_of(name: &str) -> PyResult<DeviceChoice> {
 impl Scene {
     /// Reads a scene file, a model, a scene of another program, or a built-in scene.
     #[staticmethod]
-    fn load(py: Python<'_>, path: PathBuf, strict: bool, definitions: Vec<(String, String)>) -> PyResult<Self> {
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn load(
+        py: Python<'_>,
+        path: PathBuf,
+        strict: bool,
+        definitions: Vec<(String, String)>,
+        camera: Option<String>,
+        variant: Option<String>,
+        assets_root: Option<PathBuf>,
+        environment: Option<PathBuf>,
+    ) -> PyResult<Self> {
         process::check()?;
-        let options = LoadOptions { strict, definitions, ..LoadOptions::default() };
+        let view = ModelView { environment, ..ModelView::default() };
+        let options = LoadOptions { strict, definitions, camera, variant, assets_root, view, ..LoadOptions::default() };
         let load = || {
             let scene = load_with(Some(path.as_os_str()), &options)?;
             match scene.import_report.summary().filter(|_| strict) {
@@ -89,36 +102,46 @@ impl Scene {
         self.0.warnings.iter().chain(&precision).cloned().chain(self.0.import_report.summary()).collect()
     }
 
+    /// The scene at a frame of its keyframes.
+    fn at_frame(&self, py: Python<'_>, frame: f64) -> PyResult<Self> {
+        let moved = py.detach(|| self.0.at_frame(frame));
+        moved.map(Self).map_err(|error| raised(SceneError::in_file(&self.0.name, error.to_string()).into()))
+    }
+
     /// Renders it.
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn render(
         &self,
         py: Python<'_>,
-        spp: Option<u32>,
         size: Option<(u32, u32)>,
-        seed: Option<u32>,
         device: &str,
         layers: Vec<String>,
         time_limit: Option<f64>,
         target_error: Option<f64>,
         adaptive: bool,
         intervals: (Option<f64>, Option<f64>, Option<String>, Option<String>),
+        part: (u32, Option<(u32, u32, u32, u32)>),
+        settings: Vec<(String, String)>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Rendered> {
         process::check()?;
+        let settings = assigned(&settings)?;
+        let (first_sample, crop) = part;
         let wanted = layers.iter().map(|name| layer_of(name)).collect::<PyResult<Vec<_>>>()?;
         let options = RenderOptions {
             device: device_of(device)?,
             time_limit: time_limit.map(seconds).transpose()?,
             target_error,
             adaptive,
+            first_sample,
+            crop: crop.map(|(x, y, columns, rows)| [x, y, columns, rows]),
             interval: interval_of(intervals, &wanted)?,
             ..RenderOptions::default()
         };
         let mut scene = self.0.clone();
         scene.film.size = size.map_or(scene.film.size, |(width, height)| [width, height]);
-        scene.render.spp = spp.unwrap_or(scene.render.spp);
-        scene.render.seed = seed.unwrap_or(scene.render.seed);
+        settings.iter().for_each(|setting| setting.apply(&mut scene.render));
+        scene.render.check().map_err(|bad| PyValueError::new_err(bad.to_string()))?;
         if let Some(interval) = &options.interval {
             interval.apply(&mut scene.render);
         }
@@ -167,7 +190,7 @@ fn interval_of(
 }
 
 /// A choice by its name.
-fn named<T: Choice>(what: &str, name: &str) -> PyResult<T> {
+pub fn named<T: Choice>(what: &str, name: &str) -> PyResult<T> {
     let names = || T::NAMES.iter().map(|named| named.name).collect::<Vec<_>>().join(", ");
     T::from_name(name).ok_or_else(|| PyValueError::new_err(format!("{what}: there is no `{name}`; there are {}", names())))
 }

@@ -1,7 +1,10 @@
 """Tests of the Python package, run by scripts/python against the installed wheel."""
 
 import ast
+import base64
+import contextlib
 import inspect
+import io
 import json
 import os
 import re
@@ -18,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 import gpt_pathtracer as gpt
+from gpt_pathtracer._display import Bar
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 #: The program that the wheel brings.
@@ -181,6 +185,216 @@ class Rendering(unittest.TestCase):
         child.stdout.close()
 
 
+class Settings(unittest.TestCase):
+    def setUp(self):
+        self.scene = gpt.Scene.from_toml(SCENE)
+
+    def test_every_setting_has_a_name_and_is_what_the_program_takes(self):
+        """Each is set to its default by its name, and the program's flag does what the keyword does."""
+        known = gpt.settings()
+        self.assertGreater(len(known), 20)
+        picture = self.scene.render(spp=2, device="cpu")
+        for setting in known:
+            keywords = {"spp": 2, setting.name: 2 if setting.name == "spp" else setting.default}
+            same = self.scene.render(device="cpu", **keywords)
+            self.assertEqual(same.pixels.tobytes(), picture.pixels.tobytes(), setting.name)
+            self.assertTrue(setting.help and setting.values, setting)
+        other = self.scene.render(spp=2, device="cpu", max_depth=1, sampler="independent", guiding=False)
+        self.assertEqual((other.stats["max_depth"], other.stats["sampler"], other.stats["guiding"]), (1, "independent", "off"))
+        self.assertNotEqual(other.pixels.tobytes(), picture.pixels.tobytes())
+        with tempfile.TemporaryDirectory() as folder:
+            path, file = Path(folder, "ball.exr"), Path(folder, "ball.toml")
+            file.write_text(SCENE)
+            subprocess.run([PROGRAM, "render", file, "--device", "cpu", "-q", "--spp", "2", "--max-depth", "1", "--sampler", "independent", "-o", path], check=True)
+            self.assertEqual(gpt.Picture.open(path).pixels.tobytes(), other.pixels.tobytes())
+
+    def test_wrong_ones_are_exceptions(self):
+        with self.assertRaisesRegex(TypeError, "max_depht.*did you mean 'max_depth'"):
+            self.scene.render(max_depht=3)
+        with self.assertRaisesRegex(ValueError, "sampler: expected .*sobol.*not `dice`"):
+            self.scene.render(sampler="dice")
+        for name, value in (("max_depth", -1), ("spp", -1), ("spp", 2.5), ("seed", -1)):
+            with self.assertRaisesRegex(ValueError, f"{name}: expected"):
+                self.scene.render(**{name: value})
+        with self.assertRaisesRegex(TypeError, "progress"):
+            self.scene.render(progress="yes")
+
+    def test_parts_add_up(self):
+        first = self.scene.render(spp=4, device="cpu").pixels
+        second = self.scene.render(spp=4, device="cpu", first_sample=4).pixels
+        np.testing.assert_allclose((first + second) / 2, self.scene.render(spp=8, device="cpu").pixels, rtol=1e-5, atol=1e-6)
+        part = self.scene.render(spp=4, device="cpu", crop=(8, 4, 6, 5)).pixels
+        np.testing.assert_array_equal(part, first[4:9, 8:14])
+        with self.assertRaises(ValueError):
+            self.scene.render(crop=(20, 0, 6, 5))
+
+    def test_frames(self):
+        moving = SCENE.replace("intensity = [40, 30, 20]", "intensity = [40, 30, 20]\nkeyframes = [{ frame = 0, intensity = [0, 0, 0] }, { frame = 10, intensity = [40, 30, 20] }]")
+        scene = gpt.Scene.from_toml(moving)
+        light = [float(scene.at_frame(frame).render(device="cpu").pixels.sum()) for frame in (0, 5, 10)]
+        self.assertEqual(light[0], 0)
+        with self.assertRaises(ValueError):
+            scene.at_frame(float("nan"))
+        self.assertAlmostEqual(light[1] / light[2], 0.5, delta=1e-4)
+
+    def test_a_bar(self):
+        lines = io.StringIO()
+        bar = Bar(lines)
+        bar(1, 4)
+        bar(4, 4)
+        bar.close()
+        self.assertIn("\r 25% [#######.......................]", lines.getvalue())
+        self.assertTrue(lines.getvalue().endswith("\n"))
+        self.assertNotIn("IPython", sys.modules)
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.scene.render(spp=4, device="cpu", progress=True)
+        self.assertIn("100% [##############################]", said.getvalue())
+
+
+class Measuring(unittest.TestCase):
+    METERS = """
+[camera]
+position = [0, 1, 4]
+look_at = [0, 0, 0]
+vfov = 40
+[[meter]]
+name = "below"
+type = "irradiance"
+position = [0, 0, 0]
+normal = [0, 1, 0]
+[[meter]]
+name = "turned"
+type = "irradiance"
+position = [0, 0, 0]
+normal = [0.866025403784, 0.5, 0]
+[[light]]
+type = "point"
+position = [0, 2, 0]
+intensity = [8, 4, 2]
+"""
+
+    def test_meters_are_read(self):
+        """A lamp of intensity I at the distance 2 gives I/4, and half of that on what is turned by 60 degrees."""
+        scene = gpt.Scene.from_toml(self.METERS)
+        below, turned = gpt.measure(scene, device="cpu")
+        self.assertEqual((below.name, below.photometric_unit), ("below", "lx"))
+        # A meter stands a few millionths of the scene's size above its place.
+        np.testing.assert_allclose(below.value, [2, 1, 0.5], rtol=1e-4)
+        np.testing.assert_allclose(turned.value, [1, 0.5, 0.25], rtol=1e-4)
+        self.assertTrue(all(low <= value <= high for low, value, high in zip(below.low, below.value, below.high)))
+        self.assertEqual([each.name for each in gpt.measure(scene, "turned", device="cpu")], ["turned"])
+        for wrong in ({"meters": ["left"]}, {"interval_by": "luck"}, {"target_interval": -1.0}):
+            with self.assertRaises(ValueError, msg=str(wrong)):
+                gpt.measure(scene, device="cpu", **wrong)
+        with self.assertRaisesRegex(ValueError, "no meter"):
+            gpt.measure(gpt.Scene.from_toml(SCENE), device="cpu")
+
+
+class Descriptions(unittest.TestCase):
+    """Scenes of dictionaries and arrays."""
+
+    def described(self, **more):
+        return {
+            "film": {"size": (24, 16)},
+            "render": {"spp": np.int64(8)},
+            "camera": {"position": np.array([0.0, 0, 4]), "look_at": [0, 0, 0], "vfov": 40},
+            "material": [{"name": "clay", "type": "diffuse", "reflectance": [0.6, 0.3, 0.2]}],
+            "shape": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "clay"}],
+            "light": [{"type": "point", "position": [3, 4, 5], "intensity": [40, 30, 20]}],
+            **more,
+        }
+
+    def test_a_dictionary_is_a_scene_file(self):
+        ours = gpt.Scene.from_dict(self.described()).render(device="cpu").pixels
+        self.assertEqual(ours.tobytes(), gpt.Scene.from_toml(SCENE).render(device="cpu").pixels.tobytes())
+        darker = self.described(material=[{"name": "clay", "type": "diffuse", "reflectance": [0.3, 0.15, 0.1]}])
+        self.assertLess(gpt.Scene.from_dict(darker).render(device="cpu").pixels.sum(), 0.6 * ours.sum())
+
+    def test_arrays_are_meshes(self):
+        corners = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
+        written = {"type": "mesh", "positions": corners, "faces": [[0, 1, 2], [0, 2, 3]], "uvs": [[0, 0], [1, 0], [1, 1], [0, 1]], "material": "clay"}
+        arrays = {key: np.array(value) if isinstance(value, list) else value for key, value in written.items()}
+        pictures = [gpt.Scene.from_dict(self.described(shape=[shape])).render(device="cpu").pixels for shape in (written, arrays)]
+        self.assertGreater(pictures[0].sum(), 0)
+        self.assertEqual(pictures[0].tobytes(), pictures[1].tobytes())
+        turned = {**arrays, "normals": np.tile(np.array([[0.0, 0.6, 0.8]]), (4, 1))}
+        self.assertNotEqual(gpt.Scene.from_dict(self.described(shape=[turned])).render(device="cpu").pixels.tobytes(), pictures[0].tobytes())
+        for wrong, words in (
+            ({"faces": np.array([[0, 1, 4]])}, r"shape\[0\].faces: an index lies outside the 4 positions"),
+            ({"faces": np.array([[0.0, 1, 2]])}, r"shape\[0\].faces: expected whole numbers"),
+            ({"positions": np.full((4, 3), np.nan)}, r"shape\[0\].positions: .*not finite"),
+            ({"uvs": np.zeros((3, 2))}, r"shape\[0\].uvs: 3 of them, for 4 positions"),
+            ({"uvs": np.zeros((4, 3))}, r"shape\[0\].uvs: expected the shape"),
+            ({"positions": np.full((4, 3), 1e300)}, r"shape\[0\].positions: .*not finite"),
+            ({"positions": np.ones((4, 3), bool)}, r"shape\[0\].positions: expected numbers, not bool"),
+            ({"positions": np.ones((4, 3), complex)}, r"shape\[0\].positions: expected numbers, not complex"),
+            ({"faces": [[0, 1], [0, 1, 2]]}, r"shape\[0\].faces: expected whole numbers"),
+            ({"file": "other.obj"}, r"shape\[0\]: a mesh has either `file` or arrays"),
+        ):
+            with self.assertRaisesRegex(gpt.SceneError, words):
+                gpt.Scene.from_dict(self.described(shape=[{**arrays, **wrong}]))
+        bare = {key: value for key, value in arrays.items() if key != "material"}
+        with self.assertRaisesRegex(gpt.SceneError, "`material` is missing"):
+            gpt.Scene.from_dict(self.described(shape=[bare]))
+        second = {**arrays, "second_uvs": arrays["uvs"]}
+        self.assertEqual(gpt.Scene.from_dict(self.described(shape=[second])).render(device="cpu").pixels.tobytes(), pictures[0].tobytes())
+
+    def test_arrays_are_textures(self):
+        def mean(pixels, **more):
+            textured = self.described(
+                texture=[{"name": "paint", "type": "image", "file": pixels, **more}],
+                material=[{"name": "clay", "type": "diffuse", "reflectance": {"texture": "paint"}}],
+            )
+            return gpt.Scene.from_dict(textured).render(device="cpu").pixels.sum(axis=(0, 1))
+
+        plain = mean(np.full((4, 4, 3), [0.6, 0.3, 0.2]))
+        np.testing.assert_allclose(plain, gpt.Scene.from_toml(SCENE).render(device="cpu").pixels.sum(axis=(0, 1)), rtol=1e-5)
+        # 188 of 255 in sRGB is 0.503 of the light; linear, it is 0.737.
+        grey = mean(np.full((4, 4), 0.5029))
+        np.testing.assert_allclose(mean(np.full((4, 4), 188, np.uint8)), grey, rtol=2e-3)
+        for encoded in (np.full((4, 4), 188, np.uint8), np.full((4, 4), 188 / 255)):
+            np.testing.assert_allclose(mean(encoded, color_space="srgb"), grey, rtol=2e-3)
+        np.testing.assert_allclose(mean(np.full((4, 4), 188, np.uint8), color_space="linear") / grey, 0.7373 / 0.5029, rtol=2e-3)
+        for wrong in (np.zeros((4, 4, 2)), np.zeros((4, 4), np.int32), np.full((4, 4), np.inf), np.zeros((0, 4))):
+            with self.assertRaisesRegex(gpt.SceneError, r"texture\[0\].file"):
+                mean(wrong)
+
+    def test_wrong_values_are_exceptions(self):
+        with self.assertRaisesRegex(gpt.SceneError, "reflectanse"):
+            gpt.Scene.from_dict(self.described(material=[{"name": "clay", "type": "diffuse", "reflectanse": 1}]))
+        with self.assertRaisesRegex(TypeError, "camera.vfov"):
+            gpt.Scene.from_dict(self.described(camera={"vfov": None}))
+        with self.assertRaises(TypeError):
+            gpt.Scene.from_dict([1])
+        with self.assertRaisesRegex(TypeError, "bytes"):
+            gpt.Scene.from_dict(self.described(camera={"vfov": b"40"}))
+        strange = {"name": 'a "quoted" \x7f\n name', "type": "diffuse", "reflectance": 0.5}
+        self.assertEqual(gpt.Scene.from_dict(self.described(material=[{**strange, "name": "clay"}, strange])).size, (24, 16))
+
+
+class Shown(unittest.TestCase):
+    def setUp(self):
+        self.picture = gpt.Scene.from_toml(SCENE).render(device="cpu", layers=["normal", "depth", "ids"])
+
+    def test_notebooks_show_a_png(self):
+        shown = self.picture._repr_png_()
+        self.assertEqual(shown[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(shown[16:24], (24).to_bytes(4, "big") + (16).to_bytes(4, "big"))
+
+    def test_a_dataset_of_xarray(self):
+        try:
+            import xarray  # noqa: F401
+        except ImportError:
+            with self.assertRaisesRegex(ImportError, "pip install xarray"):
+                self.picture.to_xarray()
+            self.skipTest("xarray is not installed")
+        found = self.picture.to_xarray()
+        self.assertEqual((found.radiance.dims, found.radiance.shape), (("y", "x", "channel"), (16, 24, 3)))
+        self.assertEqual((found.Z.dims, found.N.dims), (("y", "x"), ("y", "x", "axis")))
+        self.assertEqual(float(found.radiance.sel(x=12.5, y=8.5, channel="G")), float(self.picture.pixels[8, 12, 1]))
+        self.assertEqual(found.attrs["spp"], 8)
+
+
 class Files(unittest.TestCase):
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp())
@@ -193,6 +407,43 @@ class Files(unittest.TestCase):
         self.assertEqual((scene.name, scene.size, scene.spp, scene.warnings), ("ball", (24, 16), 8, []))
         self.assertIn("cornell", gpt.builtin_scenes())
         self.assertEqual(gpt.Scene.load("cornell").name, "cornell")
+
+    def test_what_imported_files_leave_open(self):
+        """A camera and a variant by name, a folder that files have to lie in, another environment."""
+        triangle = {"buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," + base64.b64encode(np.float32([-1, -1, 0, 1, -1, 0, 0, 1, 0]).tobytes()).decode()}]}
+        cameras = [{"name": name, "type": "perspective", "perspective": {"yfov": yfov, "znear": 0.1}} for name, yfov in (("wide", 1.2), ("narrow", 0.6))]
+        nodes = [{"mesh": 0}, {"camera": 0, "name": "wide", "translation": [0, 0, 3]}, {"camera": 1, "name": "narrow", "translation": [0, 0, 3]}]
+        file = {
+            "asset": {"version": "2.0"},
+            **triangle,
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "cameras": cameras,
+            "nodes": nodes,
+            "scenes": [{"nodes": [0, 1, 2]}],
+            "scene": 0,
+        }
+        path = self.folder / "triangle.gltf"
+        path.write_text(json.dumps(file))
+        seen = {name: gpt.Scene.load(path, camera=name).render(device="cpu", size=(24, 16), spp=16, layers=["alpha"]).layers["A"].mean() for name in ("wide", "narrow")}
+        self.assertGreater(seen["narrow"], 1.5 * seen["wide"])
+        with self.assertRaisesRegex(gpt.SceneError, "left.*wide|wide.*narrow"):
+            gpt.Scene.load(path, camera="left")
+        with self.assertRaises(gpt.SceneError):
+            gpt.Scene.load(path, variant="red")
+        sky = self.folder / "sky.exr"
+        gpt.Scene.from_toml(SCENE).render(spp=1, device="cpu").save(sky)
+        plain, lit = (gpt.Scene.load(path, camera="wide", environment=map).render(device="cpu", size=(24, 16), spp=4).pixels for map in (None, sky))
+        self.assertNotEqual(plain.tobytes(), lit.tobytes())
+        inside, outside = self.folder / "inside", self.folder / "outside"
+        inside.mkdir(), outside.mkdir()
+        shutil.copy(sky, outside / "sky.exr")
+        scene = inside / "scene.toml"
+        scene.write_text(SCENE + f'[[light]]\ntype = "environment"\nfile = "{(outside / "sky.exr").as_posix()}"\n')
+        self.assertEqual(gpt.Scene.load(scene).size, (24, 16))
+        with self.assertRaisesRegex(gpt.Error, "sky.exr"):
+            gpt.Scene.load(scene, assets_root=inside)
 
     def test_pictures_are_saved_read_and_compared(self):
         picture = gpt.Scene.from_toml(SCENE).render(device="cpu")

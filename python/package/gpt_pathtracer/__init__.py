@@ -11,14 +11,19 @@ The program `gpt` comes with the package.
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
+import tempfile
 from dataclasses import dataclass
+from pathlib import Path as _Folder
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _native
+from ._description import SettingValue, setting_text, text_of
+from ._display import Bar
 from ._native import DeviceError, Error, SceneError, __version__
 
 if TYPE_CHECKING:
@@ -32,13 +37,17 @@ __all__ = [
     "Comparison",
     "DeviceError",
     "Error",
+    "Measurement",
     "Picture",
     "Scene",
     "SceneError",
+    "Setting",
     "Verdict",
     "__version__",
     "builtin_scenes",
     "compare",
+    "measure",
+    "settings",
     "verify",
 ]
 
@@ -84,6 +93,32 @@ class Picture:
         """Writes the picture: .exr and .hdr hold the radiance, .png and .jpg are previews. Layers are not written; `gpt render --aov` does that."""
         self._native.save(os.fspath(path))
 
+    def to_xarray(self) -> Any:
+        """The picture and its layers as an `xarray.Dataset`: `radiance` and the layers by their names, along `y` (rows from the top), `x` and, where they
+        have several numbers, `channel` (R, G, B), `axis` (X, Y, Z) or channels of their own. Coordinates are the middles of pixels; attributes say what the render did. Needs xarray."""
+        try:
+            import xarray  # type: ignore[import-not-found,import-untyped,unused-ignore]
+        except ImportError as error:
+            raise ImportError("to_xarray needs the package xarray: pip install xarray") from error
+        rows, columns, _ = self.pixels.shape
+        arrays: Dict[str, Any] = {"radiance": (("y", "x", "channel"), self.pixels)}
+        for name, layer in self.layers.items():
+            colours = "axis" if name in ("N", "P") else "channel"
+            several = colours if layer.shape[2:] == (3,) else f"{name}_channel"
+            arrays[name] = (("y", "x", several)[: layer.ndim], layer)
+        coordinates = {"y": np.arange(rows) + 0.5, "x": np.arange(columns) + 0.5, "channel": ["R", "G", "B"], "axis": ["X", "Y", "Z"]}
+        # Attributes are what netCDF can hold.
+        told = {key: value for key, value in self.stats.items() if isinstance(value, (str, int, float)) and not isinstance(value, bool)}
+        return xarray.Dataset(arrays, coords=coordinates, attrs=told)
+
+    def _repr_png_(self) -> bytes:
+        """The preview that notebooks show."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "picture.png")
+            self.save(path)
+            with open(path, "rb") as file:
+                return file.read()
+
     def __repr__(self) -> str:
         rows, columns, _ = self.pixels.shape
         return f"<gpt_pathtracer.Picture of {columns}x{rows} pixels>"
@@ -96,13 +131,41 @@ class Scene:
         self._native = native
 
     @staticmethod
-    def load(path: Path, *, strict: bool = False, definitions: Optional[Mapping[str, str]] = None) -> Scene:
+    def load(
+        path: Path,
+        *,
+        strict: bool = False,
+        definitions: Optional[Mapping[str, str]] = None,
+        camera: Optional[str] = None,
+        variant: Optional[str] = None,
+        assets_root: Optional[Path] = None,
+        environment: Optional[Path] = None,
+    ) -> Scene:
         """Reads a scene file (.toml), a model (.obj, .ply), a scene of another program (.gltf, .glb, .xml, .pbrt), or a built-in scene by its name.
 
         `strict` refuses substitutes for missing textures and materials, and imports that are not exact. `definitions` are values of a Mitsuba
-        file's parameters.
+        file's parameters. `camera` and `variant` name those of an imported file that has several. Files that the scene names have to lie in
+        `assets_root`, where one is given. `environment` is a map that lights the scene in place of what does otherwise.
         """
-        return Scene(_native.Scene.load(os.fspath(path), strict, [(key, str(value)) for key, value in (definitions or {}).items()]))
+        values = [(key, str(value)) for key, value in (definitions or {}).items()]
+        root, surroundings = (None if each is None else os.fspath(each) for each in (assets_root, environment))
+        return Scene(_native.Scene.load(os.fspath(path), strict, values, camera, variant, root, surroundings))
+
+    @staticmethod
+    def from_dict(description: Mapping[str, Any]) -> Scene:
+        """A scene of dictionaries and lists with the keys of a scene file.
+
+        Numbers and lists may be numpy's. A texture's `file` may be an array (rows, columns) or (rows, columns, 3) of linear radiance, or of bytes in
+        sRGB; a mesh's `positions`, `faces`, `normals` and `uvs` may be arrays. Other paths are relative to the working directory.
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            return Scene(_native.Scene.from_toml(text_of(description, _Folder(folder)), os.getcwd()))
+
+    def at_frame(self, frame: float) -> Scene:
+        """The scene as its keyframes have it at a frame, which may lie between two."""
+        if not np.isfinite(frame):
+            raise ValueError(f"a frame is a finite number, not {frame}")
+        return Scene(self._native.at_frame(frame))
 
     @staticmethod
     def from_toml(text: str, *, folder: Path = "") -> Scene:
@@ -144,26 +207,66 @@ class Scene:
         confidence: Optional[float] = None,
         interval_of: Optional[str] = None,
         interval_by: Optional[str] = None,
-        progress: Optional[Callable[[int, int], object]] = None,
+        first_sample: int = 0,
+        crop: Optional[Tuple[int, int, int, int]] = None,
+        progress: Union[bool, Callable[[int, int], object], None] = None,
+        **settings: SettingValue,
     ) -> Picture:
         """Renders the scene. Other threads of Python run meanwhile, and Ctrl-C ends it.
 
         `spp`, `size` and `seed` stand for what the scene says. `device`: auto, gpu, cpu, or a part of an adapter's name. `layers`: albedo, normal,
-        position, depth, alpha, variance, samples, low, high, direct, indirect, emission, ids, cryptomatte. `time_limit` in seconds. `target_error`: the
-        relative mean squared error to reach, with `spp` as the most it may take. `adaptive`: more samples where the noise is. `target_interval`: the
-        share to which the truth is to be known, at this `confidence` (0.99), of the picture's mean, of its tiles or its pixels (`interval_of`); upper
-        ends stand on a bound of samples or on what was seen (`interval_by`). `progress` is called
-        with the samples that are done and those that are wanted, of each layer and then of the picture, up to ten times a second and at the end;
-        what it raises ends the render.
+        position, depth, alpha, variance, samples, low, high, direct, indirect, emission, ids, cryptomatte, groups. `time_limit` in seconds. `target_error`:
+        the relative mean squared error to reach, with `spp` as the most it may take. `adaptive`: more samples where the noise is. `target_interval`:
+        the share to which the truth is to be known, at this `confidence` (0.99), of the picture's mean, of its tiles or its pixels (`interval_of`);
+        upper ends stand on a bound of samples or on what was seen (`interval_by`). `first_sample` and `crop` (first column and row, width and height)
+        render a part of the samples or the pixels; the picture then has the region's size. `progress` is called with the samples that are done and
+        those that are wanted, of each layer and then of the picture, up to ten times a second and at the end; what it raises ends the render. True
+        shows a bar. All other keywords are settings by the names of a scene's `[render]`, such as `max_depth=12, guiding="on"`: `settings()` lists
+        them.
         """
         names = [layers] if isinstance(layers, str) else list(layers)
         intervals = (target_interval, confidence, interval_of, interval_by)
-        made = self._native.render(spp, size, seed, device, names, time_limit, target_error, adaptive, intervals, progress)
+        for name in settings:
+            if name not in _setting_names():
+                near = difflib.get_close_matches(name, _setting_names(), 1)
+                raise TypeError(f"render() has no keyword {name!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
+        named: Dict[str, Optional[SettingValue]] = {"spp": spp, "seed": seed, **settings}
+        assigned = [(name, setting_text(value)) for name, value in named.items() if value is not None]
+        if not (progress is None or isinstance(progress, bool) or callable(progress)):
+            raise TypeError("progress: a function of two numbers, or True for a bar")
+        part = (first_sample, crop)
+        bar = Bar() if progress is True else None
+        watcher = bar or (progress if callable(progress) else None)
+        try:
+            made = self._native.render(size, device, names, time_limit, target_error, adaptive, intervals, part, assigned, watcher)
+        finally:
+            if bar:
+                bar.close()
         return Picture(made.picture, {name: np.asarray(layer) for name, layer in made.layers.items()}, json.loads(made.stats))
 
     def __repr__(self) -> str:
         columns, rows = self.size
         return f"<gpt_pathtracer.Scene {self.name}, {columns}x{rows}, {self.spp} spp>"
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A setting of how light is estimated."""
+
+    name: str
+    help: str
+    #: Its value where nobody says one, and which it may have, in words.
+    default: str
+    values: str
+
+
+def settings() -> List[Setting]:
+    """Settings that `Scene.render` takes by name, from the table that scene files and the command line have too."""
+    return [Setting(*row) for row in _native.settings()]
+
+
+def _setting_names() -> List[str]:
+    return [name for name, *_ in _native.settings()]
 
 
 @dataclass(frozen=True)
@@ -223,6 +326,50 @@ def verify(
     loaded = scene if isinstance(scene, Scene) else Scene.load(scene)
     details = json.loads(_native.verify(loaded._native, size, spp, device))
     return Verdict(details["agrees"], details["missed"], details)
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """The reading of a meter; `details` has all that `gpt measure --json` says."""
+
+    name: str
+    #: Of `value`, `low` and `high`, which are red, green and blue.
+    unit: str
+    value: Tuple[float, float, float]
+    #: Ends of intervals that hold the truth with the confidence that was asked for.
+    low: Tuple[float, float, float]
+    high: Tuple[float, float, float]
+    #: In lux, or in candela per square metre: the reading, and its interval.
+    photometric: Tuple[float, float, float]
+    photometric_unit: str
+    details: Dict[str, Any]
+
+
+def measure(
+    scene: Union[Scene, Path],
+    meters: Iterable[str] = (),
+    *,
+    target_interval: float = 0.01,
+    confidence: Optional[float] = None,
+    interval_by: Optional[str] = None,
+    spp: Optional[int] = None,
+    seed: Optional[int] = None,
+    device: str = "auto",
+) -> List[Measurement]:
+    """Reads a scene's meters, or those of these names, until half the width of each interval is at most `target_interval` of its value, by `spp` samples of
+    each of a meter's pixels at most (65536)."""
+    loaded = scene if isinstance(scene, Scene) else Scene.load(scene)
+    names = [meters] if isinstance(meters, str) else list(meters)
+    read = json.loads(_native.measure(loaded._native, names, target_interval, confidence, interval_by, spp, seed, device))
+
+    def measurement(details: Dict[str, Any]) -> Measurement:
+        red, green, blue = details["channels"]
+        value, low, high = ((red[which], green[which], blue[which]) for which in ("value", "low", "high"))
+        lit = details["photometric"]
+        photometric = (lit["value"], lit["low"], lit["high"])
+        return Measurement(details["name"], details["unit"], value, low, high, photometric, details["photometric_unit"], details)
+
+    return [measurement(details) for details in read]
 
 
 def builtin_scenes() -> List[str]:

@@ -1,7 +1,7 @@
 from typing import Any, Callable, Dict, List, Optional, Tuple, final
 
 __version__: str
-__all__ = ["Array", "DeviceError", "Error", "Picture", "Rendered", "Scene", "SceneError", "__version__", "builtin_scenes", "compare", "verify"]
+__all__ = ["Array", "DeviceError", "Error", "Picture", "Rendered", "Scene", "SceneError", "__version__", "builtin_scenes", "compare", "measure", "settings", "verify"]
 
 class Error(Exception): ...
 class SceneError(Error): ...
@@ -36,7 +36,15 @@ class Rendered:
 @final
 class Scene:
     @staticmethod
-    def load(path: str, strict: bool, definitions: List[Tuple[str, str]]) -> Scene: ...
+    def load(
+        path: str,
+        strict: bool,
+        definitions: List[Tuple[str, str]],
+        camera: Optional[str],
+        variant: Optional[str],
+        assets_root: Optional[str],
+        environment: Optional[str],
+    ) -> Scene: ...
     @staticmethod
     def from_toml(text: str, folder: str) -> Scene: ...
     @property
@@ -47,20 +55,32 @@ class Scene:
     def spp(self) -> int: ...
     @property
     def warnings(self) -> List[str]: ...
+    def at_frame(self, frame: float) -> Scene: ...
     def render(
         self,
-        spp: Optional[int],
         size: Optional[Tuple[int, int]],
-        seed: Optional[int],
         device: str,
         layers: List[str],
         time_limit: Optional[float],
         target_error: Optional[float],
         adaptive: bool,
         intervals: Tuple[Optional[float], Optional[float], Optional[str], Optional[str]],
+        part: Tuple[int, Optional[Tuple[int, int, int, int]]],
+        settings: List[Tuple[str, str]],
         progress: Optional[Callable[[int, int], object]],
     ) -> Rendered: ...
 
 def compare(picture: Picture, reference: Picture) -> str: ...
+def measure(
+    scene: Scene,
+    meters: List[str],
+    target: float,
+    confidence: Optional[float],
+    interval_by: Optional[str],
+    spp: Optional[int],
+    seed: Optional[int],
+    device: str,
+) -> str: ...
 def verify(scene: Scene, size: Optional[Tuple[int, int]], spp: Optional[int], device: str) -> str: ...
+def settings() -> List[Tuple[str, str, str, str]]: ...
 def builtin_scenes() -> List[str]: ...
