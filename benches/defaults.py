@@ -95,7 +95,8 @@ class Trial:
         pictures = {setting: [] for setting in settings}
         found = {setting: {"seconds": [], "spp": []} for setting in settings}
         for setting in settings:
-            self.render(setting, seconds if seconds < 3 else 1, 1000)  # kernels are compiled and kept by the driver
+            # Kernels are compiled and kept by the driver; which ones depends on what is decided, and that on the length.
+            self.render(setting, seconds, 1000)
         for seed in range(seeds):
             for setting in settings:
                 picture, taken, spp, decisions = self.render(setting, seconds, seed)
