@@ -1,8 +1,7 @@
 //! Readings of a scene's meters.
 
 use gpt::plan::PlanOptions;
-use gpt::render::measure::measure;
-use gpt::scene::Meter;
+use gpt::render::measure::{MOST_SAMPLES, chosen, measure};
 use gpt::{IntervalOptions, RenderOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -11,9 +10,6 @@ use crate::errors::raised;
 use crate::process;
 use crate::scene::{Scene, device_of, named};
 use crate::watching::watched;
-
-/// Samples of each pixel of a meter's picture, at most.
-const MOST_SAMPLES: u32 = 1 << 16;
 
 /// Readings of the meters of these names, of all meters where none is named, as JSON; each until half its interval is `target` of its value.
 #[pyfunction]
@@ -46,24 +42,9 @@ pub fn measured(
         plan: PlanOptions::default(),
         ..RenderOptions::default()
     };
-    let chosen = chosen(&scene.0.meters, &meters)?;
+    let chosen = chosen(&scene.0, &meters).map_err(PyValueError::new_err)?;
     let read = watched(py, None, |watcher| {
         chosen.into_iter().map(|meter| measure(&scene.0, meter, &options, watcher)).collect::<Result<Vec<_>, _>>()
     })?;
     serde_json::to_string(&read.map_err(raised)?).map_err(|error| PyValueError::new_err(error.to_string()))
-}
-
-fn chosen<'m>(meters: &'m [Meter], names: &[String]) -> PyResult<Vec<&'m Meter>> {
-    if meters.is_empty() {
-        return Err(PyValueError::new_err("the scene has no meter; a [[meter]] of a scene file is one"));
-    }
-    if names.is_empty() {
-        return Ok(meters.iter().collect());
-    }
-    let find = |name: &String| {
-        let known = || meters.iter().map(|meter| meter.name.as_str()).collect::<Vec<_>>().join(", ");
-        let found = meters.iter().find(|meter| meter.name == *name);
-        found.ok_or_else(|| PyValueError::new_err(format!("there is no meter `{name}`; there are {}", known())))
-    };
-    names.iter().map(find).collect()
 }

@@ -233,7 +233,7 @@ class Settings(unittest.TestCase):
         scene = gpt.Scene.from_toml(moving)
         light = [float(scene.at_frame(frame).render(device="cpu").pixels.sum()) for frame in (0, 5, 10)]
         self.assertEqual(light[0], 0)
-        with self.assertRaises(ValueError):
+        with self.assertRaisesRegex(gpt.SceneError, "a frame is a finite number"):
             scene.at_frame(float("nan"))
         self.assertAlmostEqual(light[1] / light[2], 0.5, delta=1e-4)
 

@@ -5,10 +5,9 @@ use std::fmt::Write;
 use clap::Args;
 use gpt::load::SceneSource;
 use gpt::plan::PlanOptions;
-use gpt::render::measure::{Measurement, Reading, measure};
+use gpt::render::measure::{MOST_SAMPLES, Measurement, Reading, chosen, measure};
 use gpt::renderer::DeviceChoice;
-use gpt::scene::Meter;
-use gpt::{IntervalBasis, IntervalOptions, RenderOptions, Scene};
+use gpt::{IntervalBasis, IntervalOptions, RenderOptions};
 use serde::Serialize;
 
 use super::access_arguments::AccessArguments;
@@ -17,9 +16,6 @@ use super::exit::{Exit, Failure};
 use super::progress::Progress;
 use super::values::{parse_confidence, parse_device, parse_share};
 use super::{interrupt, reading, terminal};
-
-/// Samples per pixel of a meter's picture, at most.
-const MOST_SAMPLES: u32 = 1 << 16;
 
 #[derive(Debug, Args)]
 pub struct MeasureArguments {
@@ -76,7 +72,7 @@ pub fn run(arguments: &MeasureArguments) -> Result<Exit, Failure> {
     let options = arguments.access.options(arguments.strict);
     let scene = reading::shown(arguments.quiet, &options.progress, || source.load(&options))?;
     scene.warnings.iter().for_each(|warning| terminal::warn(warning));
-    let meters = chosen(&scene, arguments)?;
+    let meters = chosen(&scene, &arguments.meter).map_err(Failure::usage)?;
     let default = IntervalOptions::default();
     let interval = IntervalOptions {
         target: Some(arguments.target_interval.unwrap_or(0.01)),
@@ -120,21 +116,6 @@ pub fn run(arguments: &MeasureArguments) -> Result<Exit, Failure> {
         ));
     }
     Ok(if interrupted { Exit::Interrupted } else { Exit::Done })
-}
-
-fn chosen<'s>(scene: &'s Scene, arguments: &MeasureArguments) -> Result<Vec<&'s Meter>, Failure> {
-    if scene.meters.is_empty() {
-        return Err(Failure::usage(format!("{} has no meter; a [[meter]] of a scene file is one", scene.name)));
-    }
-    if arguments.meter.is_empty() {
-        return Ok(scene.meters.iter().collect());
-    }
-    let find = |name: &String| {
-        let names = || scene.meters.iter().map(|meter| meter.name.as_str()).collect::<Vec<_>>().join(", ");
-        let found = scene.meters.iter().find(|meter| meter.name == *name);
-        found.ok_or_else(|| Failure::usage(format!("--meter {name}: there is no such meter; there are {}", names())))
-    };
-    arguments.meter.iter().map(find).collect()
 }
 
 fn text(measured: &[Measurement]) -> String {

@@ -10,6 +10,28 @@ use crate::renderer::Observer;
 use crate::scene::{LUMEN_PER_WATT, Meter, Scene};
 use crate::spectrum::Spectrum;
 
+/// Samples of each pixel of a meter's picture, at most, where nobody says how many.
+pub const MOST_SAMPLES: u32 = 1 << 16;
+
+/// The meters of these names, or all of them where no name is given.
+///
+/// # Errors
+/// A sentence about a scene without meters, or about a name that none of them has.
+pub fn chosen<'s>(scene: &'s Scene, names: &[String]) -> Result<Vec<&'s Meter>, String> {
+    if scene.meters.is_empty() {
+        return Err(format!("{} has no meter; a [[meter]] of a scene file is one", scene.name));
+    }
+    if names.is_empty() {
+        return Ok(scene.meters.iter().collect());
+    }
+    let find = |name: &String| {
+        let known = || scene.meters.iter().map(|meter| meter.name.as_str()).collect::<Vec<_>>().join(", ");
+        let found = scene.meters.iter().find(|meter| meter.name == *name);
+        found.ok_or_else(|| format!("meter {name}: there is no such meter; there are {}", known()))
+    };
+    names.iter().map(find).collect()
+}
+
 /// A quantity with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reading {

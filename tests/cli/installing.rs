@@ -33,7 +33,7 @@ fn platforms() -> BTreeSet<String> {
     targets.filter(|target| !target.starts_with('$')).map(str::to_owned).collect()
 }
 
-/// What cargo-binstall makes of the templates in Cargo.toml: the archive's address below the repository, and the program's path in it.
+/// The archive's address below the repository, and the program's path in it, by the templates for cargo-binstall in Cargo.toml.
 fn binstall(manifest: &str, target: &str) -> (String, String) {
     let manifest: toml::Value = toml::from_str(manifest).expect("a manifest");
     let settings = &manifest["package"]["metadata"]["binstall"];

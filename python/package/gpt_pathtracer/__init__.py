@@ -163,8 +163,6 @@ class Scene:
 
     def at_frame(self, frame: float) -> Scene:
         """The scene as its keyframes have it at a frame, which may lie between two."""
-        if not np.isfinite(frame):
-            raise ValueError(f"a frame is a finite number, not {frame}")
         return Scene(self._native.at_frame(frame))
 
     @staticmethod

@@ -15,8 +15,11 @@ impl Scene {
     /// frame itself. Meshes, textures and whatever else does not change are shared.
     ///
     /// # Errors
-    /// A frame that cannot be rendered: a camera that looks at the point it stands at, a shape that is flattened.
+    /// A frame that cannot be rendered: a number that is not finite, a camera that looks at the point it stands at, a shape that is flattened.
     pub fn at_frame(&self, frame: f64) -> Result<Self, InvalidScene> {
+        if !frame.is_finite() {
+            return Err(InvalidScene { part: format!("frame {frame}"), message: "a frame is a finite number".to_owned() });
+        }
         let animation = &self.animation;
         let mut scene = self.clone();
         scene.animation = Arc::default();

@@ -35,6 +35,9 @@ fn a_scene_without_keyframes_has_no_animation() {
     let scene = scene(MESH);
     assert!(scene.animation.is_empty() && scene.animation.shapes.is_empty());
     assert_eq!(scene.at_frame(7.0).expect("it is the same").camera, scene.camera);
+    for frame in [f64::NAN, f64::INFINITY] {
+        assert!(scene.at_frame(frame).is_err_and(|invalid| invalid.message == "a frame is a finite number"));
+    }
 }
 
 /// By hand: half way there the shape is turned by 45 degrees, and while the shutter is open it goes on with the same speed.
