@@ -13,8 +13,9 @@ const BACKENDS: Backends = Backends::VULKAN.union(Backends::METAL).union(Backend
 /// lanes' paths wrong, without a word.
 const MOST_SOFTWARE_LANES: u32 = 8;
 
-/// The oldest release of Mesa whose software driver renders. Those of 22.3.6 and 24.0.5 lose samples of some pixels, other ones in each render,
-/// without a word; those of 25.0.7 and 25.2.8 lose none.
+/// The oldest release of Mesa whose software driver renders. Those of 22.3.6 and 24.0.5 end all loops of an invocation, without a word, when they
+/// have gone round 65,535 times together; a kernel that takes one pixel after the other goes round more often, and loses samples. Those of 25.0.7
+/// and 25.2.8 lose none.
 const OLDEST_SOFTWARE_MESA: u32 = 25;
 
 /// Facts about an adapter that a person wants to know before trusting it with a scene. Sizes are in bytes.

@@ -52,7 +52,7 @@ impl BandProgress {
 
     /// The part of the band that has samples.
     pub fn reached(&self, with_counts: bool) -> Reached {
-        Reached { first_row: self.first_row, rows: self.rows, pixels: self.reached, with_counts }
+        Reached { first_row: self.first_row, rows: self.rows, pixels: self.reached, least: self.done, with_counts }
     }
 
     /// The band as a state, with the sums of its rows.

@@ -123,6 +123,8 @@ pub struct Reached {
     pub rows: u32,
     /// Pixels of the band, of those that take part, that have samples: the first so many. Of the others the film may hold an earlier batch's.
     pub pixels: u32,
+    /// Samples that each pixel has at least, unless its driver lost some.
+    pub least: u32,
     /// Bands say how many samples each pixel has.
     pub with_counts: bool,
 }
@@ -131,7 +133,8 @@ pub struct Reached {
 /// nothing: what the film holds of them is an earlier batch's.
 ///
 /// # Errors
-/// [`RenderError`] that `read` and `on_band` report.
+/// [`RenderError`] that `read` and `on_band` report; [`RenderError::NoDevice`] where a pixel has fewer samples than it must have, which is a driver's
+/// fault: such a picture is not handed over.
 pub fn deliver_band(
     width: u32,
     reached: &Reached,
@@ -144,6 +147,13 @@ pub fn deliver_band(
         let first_row = reached.first_row + rows.start;
         let (sums, compensations) = read(rows)?;
         let band = means(&sums, &compensations, [width, first_row], reached, &mut pixels_before, batch);
+        if band.samples < reached.least {
+            let (last_row, found, least) = (first_row + band.rows - 1, band.samples, reached.least);
+            return Err(RenderError::NoDevice(format!(
+                "the driver lost samples: a pixel of the rows from {first_row} to {last_row} has {found} of {least}; \
+                 take a newer driver, or --device cpu"
+            )));
+        }
         // Rows of a layer of surfaces may well have met nothing.
         if band.counts.is_none() || batch.selection.is_none() || band.counts.iter().flatten().any(|count| *count > 0) {
             on_band(band)?;
@@ -215,5 +225,48 @@ fn means(
         remainder,
         second_moment,
         ..Band::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::count_word;
+    use crate::renderer::RenderRequest;
+
+    /// What a band of two rows of three pixels delivers that has so many samples a pixel, where each must have 8.
+    fn delivered(counts: [u32; 6], batch: &Batch<'_>) -> Result<Vec<u32>, RenderError> {
+        let reached = Reached { first_row: 4, rows: 2, pixels: 6, least: 8, with_counts: false };
+        let sums = counts.map(|count| [1.0, 1.0, 1.0, count_word(count)]);
+        let read = |rows: Range<u32>| {
+            let pixels = 3 * rows.start as usize..3 * rows.end as usize;
+            Ok((sums[pixels.clone()].to_vec(), vec![[0.0; 4]; pixels.len()]))
+        };
+        let mut samples = Vec::new();
+        deliver_band(3, &reached, batch, &read, &mut |band| {
+            samples.push(band.samples);
+            Ok(())
+        })?;
+        Ok(samples)
+    }
+
+    #[test]
+    fn a_picture_whose_driver_lost_samples_is_not_handed_over() {
+        let request = RenderRequest { rows: 4..6, samples: 0..8 };
+        let batch = Batch::of(&request);
+        assert_eq!(delivered([8; 6], &batch).unwrap(), [8]);
+        assert_eq!(delivered([9, 8, 8, 8, 8, 8], &batch).unwrap(), [8], "an iteration under way");
+        let refused = delivered([8, 8, 8, 8, 7, 8], &batch);
+        let Err(RenderError::NoDevice(message)) = refused else { panic!("handed over: {refused:?}") };
+        assert!(message.contains("has 7 of 8"), "{message}");
+    }
+
+    /// Pixels that take no part have what an earlier batch left.
+    #[test]
+    fn pixels_that_take_no_part_may_have_fewer_samples() {
+        let request = RenderRequest { rows: 4..6, samples: 0..8 };
+        let selection: Vec<bool> = (0..3 * 6).map(|pixel| pixel != 3 * 5 + 1).collect();
+        let batch = Batch { selection: Some(&selection), ..Batch::of(&request) };
+        assert_eq!(delivered([8, 8, 8, 8, 7, 8], &batch).unwrap(), [8]);
     }
 }

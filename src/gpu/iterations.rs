@@ -153,7 +153,10 @@ impl GpuRenderer {
         if band.reached > 0 || band.pixels == 0 {
             // Pixels of a layer of surfaces count the samples that met something.
             let counts_hits = self.plan().switches.enabled.contains("LAYER_OF_SURFACES");
-            let reached = band.reached(is_cut || band.is_uneven() || counts_hits);
+            let mut reached = band.reached(is_cut || band.is_uneven() || counts_hits);
+            if counts_hits {
+                reached.least = 0;
+            }
             let mut next_row = band.first_row;
             let delivered = self.deliver_band(&reached, batch, &mut |band| {
                 next_row = band.first_row + band.rows;

@@ -207,7 +207,10 @@ impl GpuRenderer {
         let Pipeline { device, buffers, .. } = &*self.pipeline;
         let width = self.size[0];
         let read = |rows| film::read_rows(device, &buffers.film, width, rows);
-        deliver_band(width, reached, batch, &read, on_band)
+        deliver_band(width, reached, batch, &read, on_band).map_err(|error| match error {
+            RenderError::NoDevice(message) => RenderError::NoDevice(format!("{}: {message}", device.name)),
+            error => error,
+        })
     }
 
     /// Counts since the batch began, with `samples` in this band.
