@@ -20,9 +20,8 @@ RUN mkdir -p /installed/share/bash-completion/completions \
  && /installed/bin/gpt completions bash > /installed/share/bash-completion/completions/gpt
 
 FROM debian:trixie-slim
-RUN apt-get update \
- && apt-get install -y --no-install-recommends libvulkan1 mesa-vulkan-drivers \
- && rm -rf /var/lib/apt/lists/*
+COPY scripts/install-lavapipe /tmp/
+RUN /tmp/install-lavapipe && rm -rf /tmp/install-lavapipe /var/lib/apt/lists/*
 COPY --from=build /installed /usr/local
 # Mesa keeps its compiled shaders here, whoever runs the container.
 ENV XDG_CACHE_HOME=/tmp/cache

@@ -55,6 +55,9 @@ fn describe(text: &mut String, Listed { summary: device, ray_queries_verified }:
     if let Some(reason) = &device.unusable {
         let _ = writeln!(text, "  cannot be used: it {reason}");
     }
+    if let Some(advice) = device.advice {
+        let _ = writeln!(text, "  {advice}");
+    }
     let _ = writeln!(
         text,
         "  storage binding {}, uniform binding {}, buffer {}, storage buffers a stage {}",

@@ -2,6 +2,7 @@
 
 use wgpu::{Adapter, AdapterInfo, DeviceType, Features, TextureFormat, TextureFormatFeatureFlags};
 
+use super::adapters::gathers;
 use crate::plan::{DeviceLimits, PlanError, PlanOptions, RayQueryDefault, RayQueryLimits};
 
 /// The limits of an adapter that is opened for plans with these options: it has ray queries only where they may be used.
@@ -48,6 +49,7 @@ fn device_limits(adapter: &Adapter) -> DeviceLimits {
         threads: if software { std::thread::available_parallelism().map_or(1, |count| count.get() as u32) } else { 1 },
         subgroups,
         subgroup_size: one_size.then_some(info.subgroup_min_size),
+        gathers: gathers(&info),
         ray_queries: Some(RayQueryLimits { max_primitives: limits.max_blas_primitive_count })
             .filter(|_| adapter.features().contains(Features::EXPERIMENTAL_RAY_QUERY)),
         ray_query_default: RayQueryDefault::No,

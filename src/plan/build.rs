@@ -46,10 +46,11 @@ impl Plan {
         let path_capacity = limits.paths_with_shadow_rays(state_bytes, u64::from(light_samples * shadow_ray_words) * 16);
         let needs = decisions::Needs { features: of_scene.enabled.len(), light_samples, path_capacity };
         let (stages, why_stages) = decisions::stages(geometry, needs, &scene.render, limits, options);
-        // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
-        // go through it as one packet, whose stack lies in registers, an entry a lane (shaders/geometry/software/packet.wgsl). Geometry that is code is
-        // met by all lanes anyway, and there a lane that starts its next path at once gains.
+        // On software devices that load lane by lane, the lanes of a subgroup go through a hierarchy as one packet, whose nodes are loaded once and whose
+        // stack lies in registers, an entry a lane (shaders/geometry/software/packet.wgsl). Where the device gathers, a lane on its own way that starts
+        // its next path at once takes 0.65 to 0.97 of the time (docs/notes/2026-11-29-drivers.md). Geometry that is code is met by all lanes anyway.
         let packets = limits.software
+            && !limits.gathers
             && stages == StageMode::Fused
             && geometry == GeometryPlacement::Hierarchy
             && !options.trace

@@ -45,6 +45,8 @@ pub struct DeviceLimits {
     pub subgroups: bool,
     /// Invocations of a subgroup, where all subgroups have as many and can exchange values.
     pub subgroup_size: Option<u32>,
+    /// A software device loads for all lanes of a subgroup at once, wherever their addresses lie, and not lane by lane.
+    pub gathers: bool,
     /// Limits of acceleration structures, where kernels can use them.
     pub ray_queries: Option<RayQueryLimits>,
     /// Use of ray queries where no option asks for them.
@@ -88,6 +90,7 @@ impl Default for DeviceLimits {
             threads: 1,
             subgroups: false,
             subgroup_size: None,
+            gathers: false,
             ray_queries: None,
             ray_query_default: RayQueryDefault::No,
         }

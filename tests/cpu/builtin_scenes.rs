@@ -219,7 +219,7 @@ fn a_few_built_in_scenes_use_every_switch_that_any_uses() {
     }
 }
 
-/// Software devices trace whole paths in packets wherever they may. One scene makes them go lane by lane too, as hardware does.
+/// Software devices trace whole paths, in packets wherever they load lane by lane. One scene makes them go through stages too, as hardware does.
 #[test]
 fn software_devices_run_the_stages_of_hardware_in_one_scene() {
     let software = DeviceLimits { software: true, subgroup_size: Some(8), ..DeviceLimits::default() };
@@ -229,6 +229,9 @@ fn software_devices_run_the_stages_of_hardware_in_one_scene() {
         let plan = Plan::new(&scene, &packed, &software, &PlanOptions::default()).expect("it fits");
         assert_eq!((plan.geometry, plan.stages), (GeometryPlacement::Hierarchy, stages), "{name}");
         assert_eq!(plan.lanes.is_none(), stages == StageMode::Wavefront, "{name}");
+        let gathering = DeviceLimits { gathers: true, ..software.clone() };
+        let plan = Plan::new(&scene, &packed, &gathering, &PlanOptions::default()).expect("it fits");
+        assert_eq!((plan.stages, plan.lanes), (stages, None), "{name} where the device gathers");
     }
 }
 

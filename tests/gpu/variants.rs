@@ -26,9 +26,9 @@ fn picture(device: Option<&Device>, scene: &Scene, options: &PlanOptions) -> Opt
     Some(pixel_bits(device?, scene, options, 3..3 + scene.render.spp).0)
 }
 
-/// The device as it is, and as one whose subgroups have no fixed size, so that every lane traces on its own.
+/// The device as one that loads lane by lane, and as one whose subgroups have no fixed size, so that every lane traces on its own.
 fn together_and_alone() -> [Option<Device>; 2] {
-    [DEVICE.clone(), with_limits(|limits| limits.subgroup_size = None)]
+    [with_limits(|limits| limits.gathers = false), with_limits(|limits| limits.subgroup_size = None)]
 }
 
 /// A device one of whose bindings holds less than the knot's primitives.

@@ -32,10 +32,11 @@ use crate::scene::{Estimator, FEW_PRIMITIVES, LightChoice, LightSampling, Number
 use cost::costs;
 pub use guiding::loss_with_guide;
 use sum::Rays;
-use tried::{InView, TrialResult, tried_pixels};
+use tried::{InView, Loss, TrialResult, tried_pixels};
 
-/// Gain that a way needs over a simpler one to be chosen: less is noise of the trial run.
+/// Gain that a way needs over a simpler one to be chosen, for costs are only about known; and beside it, so many standard errors of the trial run.
 const LEAST_GAIN: f64 = 1.06;
+const DOUBT: f64 = 1.0;
 /// First surfaces of a path at which several light samples are tried.
 const MOST_DEPTH: u32 = 2;
 /// Numbers, each twice the one before, that are tried after the best one.
@@ -204,8 +205,9 @@ fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
     if samples_lights {
         if open.light_choice && trial.spent <= MOST_WORK {
             let by_cells = Tried { light_choice: LightChoice::Cells, ..first };
-            loss_by_cells = trial.try_way(by_cells).loss_of_outliers_over(&simplest, &in_view);
-            if loss_by_cells * LEAST_GAIN < first.loss {
+            let loss = trial.try_way(by_cells).loss_of_outliers_over(&simplest, &in_view);
+            loss_by_cells = loss.value;
+            if is_gain(loss, first.loss) {
                 chosen = Tried { loss: loss_by_cells, ..by_cells };
             }
         }
@@ -221,6 +223,11 @@ fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
         light_samples: open.light_samples.then(of_samples),
         ..Reasons::default()
     }
+}
+
+/// Says that a loss is less than another by more than the noise of the trial run.
+fn is_gain(loss: Loss, than: f64) -> bool {
+    loss.value * LEAST_GAIN + DOUBT * loss.standard_error < than
 }
 
 /// The best way to draw from lights, from a simple one on.
@@ -290,7 +297,7 @@ impl<'a> TrialRun<'a> {
             return best;
         }
         let loss = self.try_way(other).loss_over(simplest, in_view);
-        if loss * LEAST_GAIN < best.loss { Tried { loss, ..other } } else { best }
+        if is_gain(loss, best.loss) { Tried { loss: loss.value, ..other } } else { best }
     }
 
     /// The settings with another way to draw from lights; a number of light samples that is given stays.
