@@ -104,7 +104,6 @@ fn other_commands_read_all_forms() {
     let place = Workplace::new();
     for form in &FORMS[1..] {
         place.expect(0, &format!("render lanterns -q --device cpu --size 80x70 --spp 2 --aov normal {form} -o a.exr"));
-        place.expect(0, "test bless -h");
         let read = place.image("a.exr");
         assert_eq!([read.width, read.height], [80, 70], "{form}");
     }
@@ -123,6 +122,20 @@ fn other_commands_read_all_forms() {
         assert!(dark == numbers(&channels(&place, "dark-0.exr")), "{form}");
         assert!(dark.iter().any(|(name, _)| name == "UV.U"), "{form}");
     }
+    // A golden picture is that of candidates in any form, and not of one that is brighter.
+    fs::create_dir(place.path("scenes")).expect("a folder");
+    let scene = fs::read_to_string(place.path("groups.toml")).expect("the scene");
+    fs::write(place.path("scenes/ball.toml"), &scene).expect("a scene");
+    fs::write(place.path("bright.toml"), scene.replace("intensity = 40", "intensity = 60")).expect("a scene");
+    place.expect(0, "test scenes --bless --device cpu");
+    fs::create_dir(place.path("candidates")).expect("a folder");
+    let candidate = "-q --device cpu --spp 16 --aov variance,samples -o candidates/ball.exr";
+    for form in &FORMS[1..] {
+        place.expect(0, &format!("render scenes/ball.toml {form} {candidate}"));
+        place.expect(0, "test scenes --candidate-dir candidates");
+    }
+    place.expect(0, &format!("render bright.toml --exr tiled,parts {candidate}"));
+    place.expect(7, "test scenes --candidate-dir candidates");
     let said = place.expect(2, &format!("{RENDER} --exr tiles -o a.exr"));
     assert!(said.contains("tiled") && said.contains("parts"), "{said}");
 }
