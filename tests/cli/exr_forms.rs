@@ -124,18 +124,18 @@ fn other_commands_read_all_forms() {
     }
     // A golden picture is that of candidates in any form, and not of one that is brighter.
     fs::create_dir(place.path("scenes")).expect("a folder");
-    let scene = fs::read_to_string(place.path("groups.toml")).expect("the scene");
+    let scene = fs::read_to_string(place.path("groups.toml")).expect("the scene").replace("[70, 66]", "[24, 16]");
     fs::write(place.path("scenes/ball.toml"), &scene).expect("a scene");
     fs::write(place.path("bright.toml"), scene.replace("intensity = 40", "intensity = 60")).expect("a scene");
-    place.expect(0, "test scenes --bless --device cpu");
+    place.expect(0, "test scenes --bless --device cpu --change 10%");
     fs::create_dir(place.path("candidates")).expect("a folder");
     let candidate = "-q --device cpu --spp 16 --aov variance,samples -o candidates/ball.exr";
     for form in &FORMS[1..] {
         place.expect(0, &format!("render scenes/ball.toml {form} {candidate}"));
-        place.expect(0, "test scenes --candidate-dir candidates");
+        place.expect(0, "test scenes --candidate-dir candidates --change 10%");
     }
     place.expect(0, &format!("render bright.toml --exr tiled,parts {candidate}"));
-    place.expect(7, "test scenes --candidate-dir candidates");
+    place.expect(7, "test scenes --candidate-dir candidates --change 10%");
     let said = place.expect(2, &format!("{RENDER} --exr tiles -o a.exr"));
     assert!(said.contains("tiled") && said.contains("parts"), "{said}");
 }
