@@ -59,10 +59,12 @@ impl Scene {
         variant: Option<String>,
         assets_root: Option<PathBuf>,
         environment: Option<PathBuf>,
+        projection: Option<String>,
     ) -> PyResult<Self> {
         process::check()?;
         let view = ModelView { environment, ..ModelView::default() };
-        let options = LoadOptions { strict, definitions, camera, variant, assets_root, view, ..LoadOptions::default() };
+        let preset = projection.map(|name| named("projection", &name)).transpose()?;
+        let options = LoadOptions { strict, definitions, camera, variant, assets_root, view, preset, ..LoadOptions::default() };
         let load = || {
             let scene = load_with(Some(path.as_os_str()), &options)?;
             match scene.import_report.summary().filter(|_| strict) {

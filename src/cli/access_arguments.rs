@@ -2,7 +2,9 @@
 
 use clap::Args;
 use gpt::load::LoadOptions;
+use gpt::scene::CameraPreset;
 
+use super::choice::by_name;
 use super::file_arguments::FileArguments;
 
 /// Which files a scene may name, and what is shown of one that holds several things.
@@ -16,6 +18,9 @@ pub struct AccessArguments {
     /// Look through this camera of an imported file that has several
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
+    /// See the scene so from where its camera stands; without --size, the picture's follows from the height of the scene's
+    #[arg(long, value_name = "PROJECTION", value_parser = by_name::<CameraPreset>())]
+    pub projection: Option<CameraPreset>,
     /// Show this variant of the materials of a glTF that has several
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
@@ -27,6 +32,7 @@ impl AccessArguments {
         LoadOptions {
             definitions: self.definitions.clone(),
             camera: self.camera.clone(),
+            preset: self.projection,
             variant: self.variant.clone(),
             ..self.files.options(strict)
         }

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use gpt::choice::Choice;
 use gpt::film::Layer;
 use gpt::output::{ExrCompression, LayerChannel, PictureFormat, PictureSpec};
 use gpt::render::cryptomatte;
-use gpt::render::layers::{contradiction_of_groups, notes_of_groups, render_layers};
+use gpt::render::layers::{contradiction, notes_of_groups, render_layers};
 use gpt::{RenderOptions, Scene};
 
 use super::arguments::RenderArguments;
@@ -81,18 +82,16 @@ pub fn of_files(arguments: &RenderArguments, scene: &Scene, outputs: &[(PathBuf,
     Ok(wanted)
 }
 
-/// Light groups are among the layers only where they add up to the picture.
+/// Layers are rendered only of scenes that have them: light groups where they add up to the picture, motion vectors where it is flat.
 ///
 /// # Errors
-/// A usage error where they do not.
-pub fn check_groups(
-    arguments: &RenderArguments,
-    options: &RenderOptions,
-    (scene, wanted): (&Scene, &[Layer]),
-) -> Result<(), Failure> {
+/// A usage error about the first that is not.
+pub fn check(arguments: &RenderArguments, options: &RenderOptions, (scene, wanted): (&Scene, &[Layer])) -> Result<(), Failure> {
     let asked = if arguments.exr.aov.is_empty() { "[output] of the scene:" } else { "--aov" };
-    let contradiction = wanted.contains(&Layer::Groups).then(|| contradiction_of_groups(scene, options)).flatten();
-    contradiction.map_or(Ok(()), |message| Err(Failure::usage(format!("{asked} groups: {message}"))))
+    match contradiction(wanted, scene, options) {
+        Some((layer, message)) => Err(Failure::usage(format!("{asked} {}: {message}", layer.name()))),
+        None => Ok(()),
+    }
 }
 
 /// Renders these layers. With `--checkpoint`, each has a state of its own.

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use gpt::film::Layer;
-use gpt::output::{Display, Exposure, ExrCompression, ExrOptions, ToneCurve};
+use gpt::output::{Display, Exposure, ExrCompression, ExrForm, ExrOptions, ToneCurve};
 
 use super::choice::by_name;
 
@@ -38,11 +38,19 @@ pub struct ExrArguments {
     /// How .exr files are compressed
     #[arg(long, value_name = "METHOD", default_value = "piz", value_parser = by_name::<ExrCompression>())]
     pub compression: ExrCompression,
+    /// How .exr files lie [default: as one part of scan lines]
+    #[arg(long, value_name = "FORM,…", value_delimiter = ',', value_parser = by_name::<ExrForm>())]
+    pub exr: Vec<ExrForm>,
 }
 
 impl ExrArguments {
     pub fn options(&self) -> ExrOptions {
-        ExrOptions { half: self.half, compression: self.compression }
+        ExrOptions {
+            half: self.half,
+            compression: self.compression,
+            tiled: self.exr.contains(&ExrForm::Tiled),
+            parts: self.exr.contains(&ExrForm::Parts),
+        }
     }
 }
 

@@ -3,11 +3,12 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+use gpt::choice::Choice;
 use gpt::film::Layer;
 use gpt::load::{self, LoadOptions, ModelView, SceneSource};
 use gpt::merge::chunks;
 use gpt::plan::host::{HostNeeds, host_memory};
-use gpt::render::layers::contradiction_of_groups;
+use gpt::render::layers::contradiction;
 use gpt::render::options::PARTS_OF_STRATA;
 use gpt::scene::NumberOrAuto;
 use gpt::{RenderOptions, Scene};
@@ -186,10 +187,8 @@ fn plan_samples((arguments, typed): (&PlanArguments, &Typed), scene: &Scene) -> 
     if layers.iter().any(|layer| matches!(layer, Layer::Low | Layer::High)) {
         return Err(Failure::usage(format!("--chunks with the layers low and high: {INTERVALS_OF_PARTS}")));
     }
-    if let Some(message) =
-        layers.contains(&Layer::Groups).then(|| contradiction_of_groups(scene, &RenderOptions::default())).flatten()
-    {
-        return Err(Failure::usage(format!("--chunks with the layer groups: {message}")));
+    if let Some((layer, message)) = contradiction(layers, scene, &RenderOptions::default()) {
+        return Err(Failure::usage(format!("--chunks with the layer {}: {message}", layer.name())));
     }
     let (device, device_bytes) = device_memory(scene)?;
     let seconds = guess_time(scene)?.seconds;

@@ -131,7 +131,7 @@ fn scene(
     checkpoint::check(&arguments.checkpoint, &outputs)?;
     let layers = layers::of_files(arguments, &scene, &outputs)?;
     let options = &intervals::asked_for(arguments, (&mut scene, &layers), options)?;
-    layers::check_groups(arguments, options, (&scene, &layers))?;
+    layers::check(arguments, options, (&scene, &layers))?;
     let times = frames.times(&scene.animation)?;
     // All frames draw from lights in the same way, whichever of them are rendered.
     let effort = Effort { pace: Pace::Processor, time_limit: options.time_limit };

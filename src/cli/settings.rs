@@ -61,8 +61,9 @@ pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Fai
 /// # Errors
 /// The errors of [`check`].
 pub fn apply_to(size: Option<[u32; 2]>, settings: &SettingFlags, scene: &mut Scene) -> Result<(), Failure> {
-    if let Some(size) = size {
+    if let Some(size @ [width, height]) = size {
         scene.film.size = size;
+        scene.camera.check_views(size).map_err(|message| Failure::usage(format!("--size {width}x{height}: {message}")))?;
     }
     for setting in &settings.0 {
         setting.apply(&mut scene.render);

@@ -12,7 +12,7 @@ use crate::learn::{self, Effort, Reasons, Settled};
 use crate::reference::coverage::FirstOwners;
 use crate::reference::integrator::Integrator;
 use crate::reference::intersect::Ray;
-use crate::reference::layer::LayerVisitor;
+use crate::reference::layer::{LayerVisitor, ObjectMeasure};
 use crate::reference::rounding::Rounding;
 use crate::reference::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::renderer::sink::{Sink, keep_between};
@@ -35,6 +35,8 @@ pub struct ReferenceRenderer {
     integrator: Integrator,
     /// The layer that is made in place of the picture.
     layer: Option<KernelLayer>,
+    /// The measure of layers of objects.
+    object: ObjectMeasure,
     /// Most pixels whose samples go together: [`MOST_FILM_PIXELS`] but for tests.
     pixels_in_memory: u64,
     /// The render's length, by which it learns.
@@ -115,6 +117,7 @@ impl ReferenceRenderer {
         let mut integrator = integrator.map_or_else(|| Integrator::new(&scene), Ok)?;
         integrator.hide_other_groups();
         Ok(Self {
+            object: ObjectMeasure::new(integrator.scene()),
             integrator,
             layer,
             effort,
@@ -203,7 +206,7 @@ impl ReferenceRenderer {
             let sampler = PathSampler::new(sampling, pixel, point);
             let mut radiance = Spectrum::BLACK;
             if let Some(layer) = self.layer {
-                let mut visitor = LayerVisitor::new(layer, depth, &mut limiter);
+                let mut visitor = LayerVisitor::new(layer, depth, &mut limiter).of_pixel(&self.object, [x, y]);
                 let found = clamp.darken(self.integrator.radiance(x, y, &sampler, &mut visitor));
                 let Some(value) = visitor.value(found) else {
                     traced += 1;

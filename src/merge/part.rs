@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use exr::meta::attribute::{AttributeValue, SampleType};
+use exr::meta::attribute::{AttributeValue, ChannelDescription, SampleType};
+use exr::meta::header::Header;
 use exr::prelude::Vec2;
 
 use crate::choice::Choice;
@@ -84,14 +85,15 @@ impl PartHeader {
         let mut file = input::open_to_decode(path).map_err(|error| failure(error.to_string()))?;
         let headers = open_exr::headers(&mut file).map_err(|what| failure(format!("it {what}")))?;
         let header = &headers[0];
-        let has = |name: &str| header.channels.list.iter().any(|channel| channel.name.eq(name));
+        let has = |name: &str| channels(&headers).any(|channel| channel.name.eq(name));
         if !part_channels().all(has) {
             return Err(failure(
                 "it is no part of a picture: `gpt render --first-sample A --spp N` or `--crop X,Y,W,H` writes parts".to_owned(),
             ));
         }
         let mut oddities = open_exr::oddities(header);
-        oddities.extend((headers.len() > 1).then(|| "it has several parts of OpenEXR".to_owned()));
+        let lies_elsewhere = headers.iter().any(|other| Windows::of(other) != Windows::of(header));
+        oddities.extend(lies_elsewhere.then(|| "its parts of OpenEXR lie in several places".to_owned()));
         if let Some(oddity) = oddities.first() {
             return Err(failure(format!("{oddity}: another program changed it, and only files of `gpt render` are joined")));
         }
@@ -216,7 +218,7 @@ impl PartHeader {
         let failure = |what: String| MergeError::Part { path: self.path.clone(), what };
         let open = || input::open_to_decode(&self.path).map_err(|error| failure(error.to_string()));
         let headers = open_exr::headers(&mut open()?).map_err(|what| failure(format!("it {what}")))?;
-        let list = &headers[0].channels.list;
+        let list: Vec<&ChannelDescription> = channels(&headers).collect();
         let [width, height] = [self.region[2] as usize, self.region[3] as usize];
         // Numbers of shapes and materials are whole ones.
         let is_read = |kind: SampleType| matches!(kind, SampleType::F32 | SampleType::U32);
@@ -288,6 +290,11 @@ impl RenderedChannels {
         }
         (means, f64::from(self.counts[pixel]))
     }
+}
+
+/// The channels of all parts of a file, in their order.
+fn channels(headers: &[Header]) -> impl Iterator<Item = &ChannelDescription> {
+    headers.iter().flat_map(|header| &header.channels.list)
 }
 
 /// The filter of which a header tells.

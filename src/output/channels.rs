@@ -10,7 +10,7 @@ use super::read::{ReadError, check_size};
 use crate::input;
 use crate::picture_file::open_exr::{ExrFile, read_lines};
 
-/// The part of an EXR file that is the picture, in its display window; outside of its data window, numbers are 0.
+/// The parts of an EXR file that lie where its picture does, in the display window; outside of the data window, numbers are 0.
 #[derive(Debug, Clone, Default)]
 pub struct Channels {
     pub width: u32,
@@ -37,19 +37,29 @@ impl Channels {
         let size @ [width, height] = windows.size();
         check_size(size)?;
         check_size(windows.data_size())?;
-        // Channels of reduced resolution hold no layer of a picture.
-        let whole = header.channels.list.iter().enumerate().filter(|(_, channel)| channel.sampling == Vec2(1, 1));
-        let wanted: Vec<usize> = whole.map(|(place, _)| place).collect();
-        let mut planes = vec![vec![0.0; width as usize * height as usize]; wanted.len()];
-        read_lines(open()?, file.part(), &wanted, |(channel, at, numbers)| {
-            let plane = wanted.iter().position(|of| *of == channel);
-            if let (Some(plane), Some(([column, row], numbers))) = (plane, windows.place(at, numbers)) {
-                let start = row * width as usize + column;
-                planes[plane][start..start + numbers.len()].copy_from_slice(numbers);
+        let mut values = BTreeMap::new();
+        for (part, header) in file.layers() {
+            // Channels of reduced resolution hold no layer of a picture.
+            let whole = header.channels.list.iter().enumerate().filter(|(_, channel)| channel.sampling == Vec2(1, 1));
+            let wanted: Vec<usize> = whole.map(|(place, _)| place).collect();
+            let mut planes = vec![vec![0.0; width as usize * height as usize]; wanted.len()];
+            read_lines(open()?, part, &wanted, |(channel, at, numbers)| {
+                let plane = wanted.iter().position(|of| *of == channel);
+                if let (Some(plane), Some(([column, row], numbers))) = (plane, windows.place(at, numbers)) {
+                    let start = row * width as usize + column;
+                    planes[plane][start..start + numbers.len()].copy_from_slice(numbers);
+                }
+            })?;
+            for (place, plane) in wanted.iter().zip(planes) {
+                let own = header.channels.list[*place].name.to_string();
+                // Some programs leave it to the part's name to tell channels of one name apart.
+                let name = match &header.own_attributes.layer_name {
+                    Some(part) if values.contains_key(&own) => format!("{part}.{own}"),
+                    _ => own,
+                };
+                values.entry(name).or_insert(plane);
             }
-        })?;
-        let name = |place: &usize| header.channels.list[*place].name.to_string();
-        let values = wanted.iter().map(name).zip(planes).collect();
+        }
         let attributes = header
             .own_attributes
             .other

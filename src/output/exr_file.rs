@@ -1,4 +1,4 @@
-//! OpenEXR pictures: RGB scan lines, f32 or f16, written block by block.
+//! OpenEXR pictures, f32 or f16, in scan lines or tiles, of one part or more, written block by block as rows come.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -7,13 +7,18 @@ use std::io::{Seek, SeekFrom, Write};
 use std::sync::Arc;
 use std::thread::available_parallelism;
 
-use exr::block::UncompressedBlock;
+use exr::block::chunk::Chunk;
 use exr::block::writer::{ChunkWriter, ChunksWriter, ParallelBlocksCompressor};
+use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::{Error, UnitResult};
-use exr::meta::attribute::{AttributeValue, ChannelDescription, Chromaticities, IntegerBounds, LineOrder, SampleType, Text};
+use exr::math::RoundingMode;
+use exr::meta::attribute::{
+    AttributeValue, ChannelDescription, Chromaticities, IntegerBounds, LevelMode, LineOrder, SampleType, Text, TileDescription,
+};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, Headers, MetaData};
 use exr::prelude::{Compression, Vec2, f16};
+use rayon::prelude::*;
 
 use super::layers::{LayerChannel, LayerPicture, LayerSource, SAMPLE_COUNT, sample_variance};
 use super::provenance::{self, LAYERS_KEY, PICTURE_HIGH_KEY, PICTURE_LOW_KEY};
@@ -24,6 +29,8 @@ use crate::picture_file::open_exr::{self, DIGEST_KEY, LineDigests};
 
 /// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
 const COMPRESSING_THREADS: usize = 4;
+/// Width and height of a tile in pixels.
+const TILE: usize = 64;
 /// Channels of every file.
 const COLOURS: [&str; 3] = ["R", "G", "B"];
 /// Channels of a part, in alphabetical order: what rounding to a colour lost is its remainder, and variances are those of samples, as in layers.
@@ -35,26 +42,28 @@ const PREAMBLE_BYTES: u64 = 8;
 /// Encodes all rows of the picture. The error is a sentence.
 pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &PictureSpec) -> Result<(), String> {
     let have_counts = rows.have_counts().map_err(|_| "the render broke off".to_owned())?;
-    let mut first = header(spec, spec.samples_wanted(), Completeness::Finished, have_counts);
-    state_picture_ends(&mut first, rows.picture_ends());
-    state_digest(&mut first, &open_exr::placeholder());
-    let headers: Headers = [first].into_iter().collect();
-    let channels = channels(spec, have_counts);
+    let layout = Layout::new(spec, have_counts);
+    let mut first = headers(spec, &layout, (spec.samples_wanted(), Completeness::Finished));
+    state_picture_ends(&mut first[0], rows.picture_ends());
+    state_digest(&mut first[0], &open_exr::placeholder());
+    let headers_at_first: Headers = first.into_iter().collect();
     let mut digests = LineDigests::default();
-    exr::block::write(&mut writer, headers, true, |meta, chunks| {
-        write_blocks(&meta, chunks, (&mut rows, &channels, &mut digests))
+    exr::block::write(&mut writer, headers_at_first, true, |meta, chunks| {
+        write_blocks(&meta, chunks, (&mut rows, &layout, &mut digests))
     })
     .map_err(|error| error.to_string())?;
 
     // The header went out before the samples were counted and the pixels hashed, and with its attributes in no order, for they were in a hash map.
     // Numbers and digests have a fixed length, so it is written again in place, sorted: equal pictures are equal files.
     let completeness = rows.wait_for_finish().map_err(|_| "the render broke off".to_owned())?;
-    let mut last = header(spec, rows.fewest_samples(), completeness, have_counts);
-    state_picture_ends(&mut last, rows.picture_ends());
+    let mut last = headers(spec, &layout, (rows.fewest_samples(), completeness));
+    state_picture_ends(&mut last[0], rows.picture_ends());
     let digest = digests.finish(&last);
-    state_digest(&mut last, &digest);
+    state_digest(&mut last[0], &digest);
     writer.seek(SeekFrom::Start(PREAMBLE_BYTES)).map_err(|error| error.to_string())?;
-    writer.write_all(&sorted_bytes(&last).map_err(|error| error.to_string())?).map_err(|error| error.to_string())?;
+    for header in &last {
+        writer.write_all(&sorted_bytes(header).map_err(|error| error.to_string())?).map_err(|error| error.to_string())?;
+    }
     writer.flush().map_err(|error| error.to_string())
 }
 
@@ -84,16 +93,67 @@ fn sorted_bytes(header: &Header) -> Result<Vec<u8>, Error> {
 }
 
 /// The source of blocks, and the sum of what is hashed of them.
-type BlockSource<'a> = (&'a mut Rows, &'a [Channel], &'a mut LineDigests);
+type BlockSource<'a> = (&'a mut Rows, &'a Layout, &'a mut LineDigests);
 
-fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: BlockSource<'_>) -> UnitResult {
+fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, source: BlockSource<'_>) -> UnitResult {
+    if meta.headers.len() > 1 {
+        // The library would keep the blocks of later parts until those of earlier ones are all there, and rows come once.
+        return for_each_band(meta, source, |blocks| {
+            let compress = |(index, block): (usize, UncompressedBlock)| Ok((index, block.compress_to_chunk(&meta.headers)?));
+            let compressed: Vec<(usize, Chunk)> = blocks.into_par_iter().map(compress).collect::<Result<_, Error>>()?;
+            compressed.into_iter().try_for_each(|(index, chunk)| chunks.write_chunk(index, chunk))
+        });
+    }
     let threads = available_parallelism().map_or(1, usize::from).min(COMPRESSING_THREADS);
     let pool = || rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     if let Some(mut compressor) = ParallelBlocksCompressor::new_with_thread_pool(meta, chunks, pool) {
-        for_each_block(meta, rows, |index, block| compressor.add_block_to_compression_queue(index, block))
+        for_each_band(meta, source, |blocks| {
+            blocks.into_iter().try_for_each(|(index, block)| compressor.add_block_to_compression_queue(index, block))
+        })
     } else {
         let mut compressor = chunks.sequential_blocks_compressor(meta);
-        for_each_block(meta, rows, |index, block| compressor.compress_block(index, block))
+        for_each_band(meta, source, |blocks| {
+            blocks.into_iter().try_for_each(|(index, block)| compressor.compress_block(index, block))
+        })
+    }
+}
+
+/// The parts of a file and their channels.
+struct Layout {
+    /// One of each part, by the name that the part has where there are several.
+    parts: Vec<(String, Vec<Channel>)>,
+}
+
+impl Layout {
+    /// `have_counts`: the file says how many samples each pixel has.
+    fn new(spec: &PictureSpec, have_counts: bool) -> Self {
+        let mut parts: Vec<(String, Vec<Channel>)> = Vec::new();
+        for channel in channels(spec, have_counts) {
+            let name = if spec.exr.parts { part_of(&channel.name) } else { PICTURE_PART };
+            match parts.iter_mut().find(|(part, _)| part == name) {
+                Some((_, channels)) => channels.push(channel),
+                None => parts.push((name.to_owned(), vec![channel])),
+            }
+        }
+        // The picture comes first: programs that read one part read that.
+        parts.sort_by_key(|(name, _)| name != PICTURE_PART);
+        Self { parts }
+    }
+
+    fn channels(&self) -> impl Iterator<Item = &Channel> {
+        self.parts.iter().flat_map(|(_, channels)| channels)
+    }
+}
+
+/// Name of the part of the picture itself.
+const PICTURE_PART: &str = "rgba";
+
+/// The part to which a channel belongs, by the names that compositing programs have for layers.
+fn part_of(channel: &str) -> &str {
+    match channel {
+        "R" | "G" | "B" | "A" => PICTURE_PART,
+        "Z" => "depth",
+        _ => channel.rsplit_once('.').map_or(channel, |(layer, _)| layer),
     }
 }
 
@@ -145,37 +205,64 @@ fn channels(spec: &PictureSpec, have_counts: bool) -> Vec<Channel> {
     channels
 }
 
-/// Packs the rows as the file wants them, block by block from the top.
-fn for_each_block(
+/// Packs the rows as the file wants them, and hands over the blocks of all parts band by band from the top, each with its number in its part.
+fn for_each_band(
     meta: &MetaData,
-    (rows, channels, digests): BlockSource<'_>,
-    mut write: impl FnMut(usize, UncompressedBlock) -> UnitResult,
+    (rows, layout, digests): BlockSource<'_>,
+    mut write: impl FnMut(Vec<(usize, UncompressedBlock)>) -> UnitResult,
 ) -> UnitResult {
-    let bytes_per_pixel = meta.headers[0].channels.bytes_per_pixel;
-    let is_part = channels.iter().any(|channel| matches!(channel.content, Content::Part(_)));
-    for (index_in_file, index) in meta.enumerate_ordered_header_block_indices() {
-        let mut data = Vec::with_capacity(index.pixel_size.area() * bytes_per_pixel);
-        let first_row = index.pixel_position.y();
-        for row in 0..index.pixel_size.height() {
-            let layers = layer_rows(channels, (first_row + row) as u32)?;
+    let headers = &meta.headers;
+    let is_part = layout.channels().any(|channel| matches!(channel.content, Content::Part(_)));
+    // All parts have blocks of one size, so that those of a band stand one behind the other in each.
+    let mut indices: Vec<_> = meta.enumerate_ordered_header_block_indices().collect();
+    indices.sort_by_key(|(_, index)| index.pixel_position.y());
+    for band in indices.chunk_by(|(_, one), (_, other)| one.pixel_position.y() == other.pixel_position.y()) {
+        let Some((_, first)) = band.first() else { continue };
+        let first_row = first.pixel_position.y();
+        // By row, then by channel.
+        let mut packed: Vec<Vec<Vec<u8>>> = Vec::with_capacity(first.pixel_size.height());
+        for row in first_row..first_row + first.pixel_size.height() {
+            let layers = layer_rows(layout, row as u32)?;
             let row = rows.next_row().map_err(|_| Error::Aborted)?;
             let of_part = if is_part { part_values(&row) } else { Vec::new() };
-            for channel in channels {
+            let pack = |channel: &Channel| {
+                let mut data = Vec::with_capacity(row.mean.len() * channel.sample_type.bytes_per_sample());
                 pack(channel, &row, (&layers, &of_part), &mut data);
+                data
+            };
+            packed.push(layout.channels().map(pack).collect());
+        }
+        let mut blocks = Vec::with_capacity(band.len());
+        for &(number, index) in band {
+            let block = cut_block(&packed, layout, index);
+            if loses_something(&headers[index.layer]) {
+                // The digest is of what comes out of the file.
+                let chunk = block.clone().compress_to_chunk(headers)?;
+                digests.add(headers, &UncompressedBlock::decompress_chunk(chunk, meta, false)?);
+            } else {
+                digests.add(headers, &block);
             }
+            blocks.push((number, block));
         }
-        let block = UncompressedBlock { index, data };
-        let header = &meta.headers[0];
-        if loses_something(header) {
-            // The digest is of what comes out of the file.
-            let chunk = block.clone().compress_to_chunk(&meta.headers)?;
-            digests.add(header, &UncompressedBlock::decompress_chunk(chunk, meta, false)?);
-        } else {
-            digests.add(header, &block);
-        }
-        write(index_in_file, block)?;
+        write(blocks)?;
     }
     rows.wait_for_finish().map_err(|_| Error::Aborted).map(|_| ())
+}
+
+/// A block of a band that is packed by row and channel: row by row, one channel behind the other.
+fn cut_block(packed: &[Vec<Vec<u8>>], layout: &Layout, index: BlockIndex) -> UncompressedBlock {
+    let before: usize = layout.parts[..index.layer].iter().map(|(_, channels)| channels.len()).sum();
+    let channels = &layout.parts[index.layer].1;
+    let bytes_per_pixel: usize = channels.iter().map(|channel| channel.sample_type.bytes_per_sample()).sum();
+    let mut data = Vec::with_capacity(index.pixel_size.area() * bytes_per_pixel);
+    let (first, end) = (index.pixel_position.x(), index.pixel_position.x() + index.pixel_size.width());
+    for row in packed {
+        for (channel, line) in channels.iter().zip(&row[before..]) {
+            let bytes = channel.sample_type.bytes_per_sample();
+            data.extend_from_slice(&line[first * bytes..end * bytes]);
+        }
+    }
+    UncompressedBlock { index, data }
 }
 
 fn loses_something(header: &Header) -> bool {
@@ -183,9 +270,9 @@ fn loses_something(header: &Header) -> bool {
 }
 
 /// A row of each picture that layers come from, by its address.
-fn layer_rows(channels: &[Channel], row: u32) -> Result<BTreeMap<usize, Vec<[f32; 3]>>, Error> {
+fn layer_rows(layout: &Layout, row: u32) -> Result<BTreeMap<usize, Vec<[f32; 3]>>, Error> {
     let mut rows = BTreeMap::new();
-    for channel in channels {
+    for channel in layout.channels() {
         if let Content::Layer(source) = &channel.content
             && let Some(picture) = source.picture()
             && let Entry::Vacant(entry) = rows.entry(Arc::as_ptr(picture) as usize)
@@ -261,30 +348,54 @@ pub fn part_channels() -> impl Iterator<Item = &'static str> {
     PART.into_iter()
 }
 
-/// `have_counts`: the file says how many samples each pixel has, in a channel of its own.
-fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_counts: bool) -> Header {
+/// The headers of all parts, of a picture whose pixels have so many samples at least. The first one's entries are the file's.
+fn headers(spec: &PictureSpec, layout: &Layout, state: (u32, Completeness)) -> Vec<Header> {
+    let several = layout.parts.len() > 1;
+    let of_part = |(place, (name, channels)): (usize, &(String, Vec<Channel>))| {
+        let mut header = if place == 0 { header(spec, channels, state) } else { plain_header(spec, channels) };
+        // A part's name is for files of several parts; some readers would put it before the channels' names.
+        header.own_attributes.layer_name = several.then(|| Text::from(name.as_str()));
+        if place > 0 && name.starts_with("Crypto") {
+            state_notes(&mut header, spec);
+        }
+        header
+    };
+    layout.parts.iter().enumerate().map(of_part).collect()
+}
+
+fn header(spec: &PictureSpec, channels: &[Channel], (samples, completeness): (u32, Completeness)) -> Header {
+    let mut header = plain_header(spec, channels);
+    for (key, entry) in spec.header_entries(samples, completeness) {
+        header.own_attributes.other.insert(Text::from(key), attribute(entry));
+    }
+    header.own_attributes.other.extend(layers_entry(spec).map(|(key, value)| (Text::from(key), value)));
+    state_notes(&mut header, spec);
+    header
+}
+
+fn state_notes(header: &mut Header, spec: &PictureSpec) {
+    for (key, text) in &spec.notes {
+        header.own_attributes.other.insert(header_text(key), AttributeValue::Text(header_text(text)));
+    }
+}
+
+/// A part's header with what all parts state.
+fn plain_header(spec: &PictureSpec, channels: &[Channel]) -> Header {
     let describe = |channel: &Channel| ChannelDescription::new(&*channel.name, channel.sample_type, false);
-    let channels = channels(spec, have_counts).iter().map(describe).collect();
+    let channels = channels.iter().map(describe).collect();
     let size = Vec2(spec.width as usize, spec.height as usize);
+    let tiles =
+        TileDescription { tile_size: Vec2(TILE, TILE), level_mode: LevelMode::Singular, rounding_mode: RoundingMode::Down };
     let mut header = Header::new(Text::from("gpt"), size, channels).with_encoding(
         match spec.exr.compression {
             // A part must lose nothing.
             ExrCompression::Pxr24 if spec.part.is_some() => Compression::ZIP16,
             choice => compression(choice),
         },
-        BlockDescription::ScanLines,
+        if spec.exr.tiled { BlockDescription::Tiles(tiles) } else { BlockDescription::ScanLines },
         LineOrder::Increasing,
     );
-    // A part's name is for files of several parts; some readers would put it before the channels' names.
-    header.own_attributes.layer_name = None;
     header.own_attributes.software_name = Some(Text::from(concat!("gpt ", env!("CARGO_PKG_VERSION"))));
-    for (key, entry) in spec.header_entries(samples, completeness) {
-        header.own_attributes.other.insert(Text::from(key), attribute(entry));
-    }
-    header.own_attributes.other.extend(layers_entry(spec).map(|(key, value)| (Text::from(key), value)));
-    for (key, text) in &spec.notes {
-        header.own_attributes.other.insert(header_text(key), AttributeValue::Text(header_text(text)));
-    }
     header.shared_attributes.chromaticities = Some(REC_709);
     if let Some(PartSpec { film, origin }) = spec.part.or(spec.placed) {
         let [x, y] = origin.map(|place| i32::try_from(place).unwrap_or(i32::MAX));

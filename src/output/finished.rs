@@ -55,7 +55,8 @@ fn decisive(spec: &PictureSpec) -> impl Iterator<Item = (&'static str, Entry)> {
 fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
     let headers = input::open_to_decode(path).ok().and_then(|mut file| open_exr::headers(&mut file).ok());
     let Some(header) = headers.as_ref().and_then(|headers| headers.first()) else { return false };
-    if header.channels.list.iter().any(|channel| channel.name.eq("Remainder.R")) != spec.part.is_some() {
+    let mut channels = headers.iter().flatten().flat_map(|header| &header.channels.list);
+    if channels.any(|channel| channel.name.eq("Remainder.R")) != spec.part.is_some() {
         return false;
     }
     let found: Vec<(&Text, &AttributeValue)> = header.own_attributes.other.iter().collect();

@@ -31,4 +31,4 @@ pub use layers::{HIGH, LOW, LayerChannel, LayerPicture, LayerSource, SAMPLE_COUN
 pub use picture::{PictureFile, STDOUT};
 pub use provenance::{CONFIDENCE_KEY, CROP_KEY, LAYERS_KEY, LIGHT_GROUPS_KEY, PICTURE_HIGH_KEY, PICTURE_LOW_KEY, Provenance};
 pub use read::{Image, PictureKind, ReadError, ReadPicture, cut, read_image, read_picture, read_undamaged_picture};
-pub use spec::{ExrCompression, ExrOptions, PartSpec, PictureSpec};
+pub use spec::{ExrCompression, ExrForm, ExrOptions, PartSpec, PictureSpec};

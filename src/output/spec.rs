@@ -13,9 +13,22 @@ pub struct ExrOptions {
     /// Red, green and blue in half precision: 11 bits, up to 65504.
     pub half: bool,
     pub compression: ExrCompression,
+    /// In tiles of 64 × 64 pixels; else in scan lines.
+    pub tiled: bool,
+    /// Each layer as a part of its own; else all in one.
+    pub parts: bool,
 }
 
 choices! {
+    /// How OpenEXR files lie otherwise than as one part of scan lines.
+    pub enum ExrForm {
+        /// In tiles of 64 × 64 pixels, from which programs read regions and large textures.
+        Tiled = "tiled",
+        /// Each layer as a part of its own, which programs read without the others: rgba, depth, and the rest by their channels' names.
+        Parts = "parts",
+    }
+
+
     /// How OpenEXR files are compressed.
     pub enum ExrCompression {
         /// Not at all.

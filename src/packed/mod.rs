@@ -20,6 +20,7 @@ pub mod light_cells;
 pub mod material;
 pub mod medium;
 pub mod motion;
+pub mod object;
 pub mod primitive;
 pub mod ray_query;
 mod scene;

@@ -14,7 +14,7 @@ use super::material::PackedMaterials;
 use super::primitive::Primitive;
 use super::texture::PackedTextures;
 use super::view::View;
-use super::{light, tree, world};
+use super::{light, object, tree, world};
 use crate::binary_tree::parts::KeptTrees;
 use crate::sampling::LightCells;
 use crate::sampling::light_tree::LightNode;
@@ -43,6 +43,8 @@ pub struct PackedScene {
     pub environment: PackedEnvironment,
     /// How shapes move (`PackedMotion::words` of `packed::motion`).
     pub motions: Vec<[f32; 4]>,
+    /// Places of shapes ([`super::object`]), of a scene that was made ready for the layer of it; else empty.
+    pub objects: Vec<[f32; 4]>,
     /// Groups of meshes in their places. Leaves name them.
     pub instances: Vec<PackedInstance>,
     pub view: View,
@@ -103,6 +105,7 @@ impl PackedScene {
         }
         let (hierarchy, order) = tree::build(&world, traversal, kept)?;
         let packed = Self {
+            objects: object::words(scene, &world, &order),
             primitives: order.par_iter().map(|slot| slot.pack(&world)).collect(),
             // Without nodes there are no roots; the plan refuses such a scene.
             instances: world

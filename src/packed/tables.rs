@@ -1,5 +1,6 @@
 //! One array for all that shading looks up: materials and their further parameters, media, the parts and weights of blends, lights, the tree
-//! of them and their profiles, textures, motions.
+//! of them and their profiles, textures, motions, the
+//! spaces of objects.
 
 use super::scene::PackedScene;
 
@@ -19,6 +20,7 @@ pub struct Tables {
     pub first_volume: u32,
     pub first_light_node: u32,
     pub first_light_profile: u32,
+    pub first_object: u32,
 }
 
 impl Tables {
@@ -37,6 +39,7 @@ impl Tables {
         tables.first_volume = tables.append(&packed.materials.media.volumes.volumes);
         tables.first_light_node = tables.append(&packed.light_nodes);
         tables.first_light_profile = tables.append(&packed.light_profiles);
+        tables.first_object = tables.append(&packed.objects);
         tables
     }
 

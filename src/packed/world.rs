@@ -12,6 +12,7 @@ use super::motion::PackedMotion;
 use super::primitive::WorldPrimitive;
 use super::shape::{self, Placement};
 use crate::binary_tree::parts::Pose;
+use crate::film::KernelLayer;
 use crate::scene::animation::unevenness;
 use crate::scene::{Geometry, Instances, MaterialId, Scene, Shape, Transform, TransformStep};
 
@@ -38,7 +39,8 @@ pub struct WorldGeometry {
 /// Surfaces made of `pass` are left out: to every ray they are not there.
 pub fn collect(scene: &Scene) -> WorldGeometry {
     let mut world = WorldGeometry { second_uvs: uses_second_uvs(scene), ..WorldGeometry::default() };
-    let textured = scene.materials_that(|material| material.uses_texture() || material.is_anisotropic());
+    let shows_coordinates = scene.ready_for == Some(KernelLayer::Uv);
+    let textured = scene.materials_that(|material| shows_coordinates || material.uses_texture() || material.is_anisotropic());
     for (index, shape) in scene.shapes.iter().enumerate() {
         let first = world.primitives.len();
         let second = world.second_corners(shape);

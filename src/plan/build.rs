@@ -112,6 +112,7 @@ impl Plan {
         for switch in options.layer.map_or(&[][..], KernelLayer::switches) {
             plan.switches.enable(switch, true);
         }
+        plan.switches.enable("OBJECT_MAPS", options.layer == Some(KernelLayer::ObjectPosition) && !packed.objects.is_empty());
         for switch in &options.compile_in {
             plan.switches.enable(switch, true);
         }

@@ -138,6 +138,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("FIRST_PHASE_WORD", tables.first_phase),
         ("FIRST_VOLUME_WORD", tables.first_volume),
         ("FIRST_MOTION_WORD", tables.first_motion),
+        ("FIRST_OBJECT_WORD", tables.first_object),
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
         ("LANES", plan.lanes.unwrap_or(1)),

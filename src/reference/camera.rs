@@ -152,6 +152,36 @@ impl CameraRays {
         Some(Ray { origin: ray.middle + ray.offset, direction: (ray.direction * ray.focus_distance - ray.offset).normalize() })
     }
 
+    /// The place where a pixel's view shows a point through the middle of the lens, in pixels from the view's upper left corner: as the shutter opens, or as it
+    /// `closes`. None where the point is not before the camera, and where the picture is not flat.
+    pub fn place(&self, pixel: [u32; 2], point: DVec3, closes: bool) -> Option<DVec2> {
+        let pose = if closes { self.poses.last() } else { self.poses.first() }?;
+        let window = pose.window?;
+        let [right, up, backward] = pose.frame;
+        let way = point - pose.position;
+        let mut seen = DVec3::new(way.dot(right), way.dot(up), -way.dot(backward));
+        let mut toed_in = DVec3::ZERO;
+        if let Some(stereo) = self.camera.stereo {
+            let eye = stereo.eye(Eyes::Pair, DVec3::NEG_Z, self.tile(pixel));
+            seen -= eye;
+            toed_in = stereo.inverse_convergence() * eye;
+        }
+        let on_window = match window.is_parallel {
+            true => seen.truncate(),
+            false if seen.z > 0.0 => (seen / seen.z + toed_in).truncate(),
+            false => return None,
+        };
+        let at = on_window / window.half_extent;
+        let share = 0.5 * DVec2::new(1.0 + at.x, 1.0 - at.y) + DVec2::new(-window.shift.x, window.shift.y);
+        Some(share * DVec2::from(self.view.map(f64::from)))
+    }
+
+    /// Number of the view that a pixel belongs to.
+    fn tile(&self, pixel: [u32; 2]) -> u32 {
+        let [column, row]: [u32; 2] = std::array::from_fn(|axis| (pixel[axis] / self.view[axis]).min(self.tiles[axis] - 1));
+        row * self.tiles[0] + column
+    }
+
     fn unscaled(&self, pose: &Pose, place: &ViewPlace, lens: DVec2) -> Option<Unscaled> {
         let (mut origin, mut direction) = match (pose.window, self.camera.projection.model()) {
             (Some(window), _) => {

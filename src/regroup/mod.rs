@@ -19,8 +19,19 @@ pub use weight::GroupWeight;
 pub const WEIGHTS_KEY: &str = "gpt:regrouped";
 
 /// Layers that say nothing of light, which stay what they are.
-const KEPT: [Layer; 8] =
-    [Layer::Albedo, Layer::Normal, Layer::Position, Layer::Depth, Layer::Alpha, Layer::Samples, Layer::Ids, Layer::Cryptomatte];
+const KEPT: [Layer; 11] = [
+    Layer::Albedo,
+    Layer::Normal,
+    Layer::Position,
+    Layer::Uv,
+    Layer::ObjectPosition,
+    Layer::Motion,
+    Layer::Depth,
+    Layer::Alpha,
+    Layer::Samples,
+    Layer::Ids,
+    Layer::Cryptomatte,
+];
 
 /// Why a picture cannot be regrouped; sentences without the file's name.
 #[derive(Debug, thiserror::Error)]

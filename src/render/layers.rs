@@ -6,12 +6,13 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::checkpoint::Checkpoint;
 use super::cryptomatte;
 use super::options::RenderOptions;
 use super::stream::Renderer;
+use crate::choice::Choice;
 use crate::cpu::ReferenceRenderer;
 use crate::film::{Band, KernelLayer, Layer, RenderedLayer};
 use crate::output::{LIGHT_GROUPS_KEY, LayerChannel, LayerPicture};
@@ -46,10 +47,8 @@ pub fn render_layers<E: From<RenderError>>(
     let region = options.crop.unwrap_or([0, 0, scene.film.size[0], scene.film.size[1]]);
     let mut rendered: Vec<Rendered> = Vec::new();
     let mut channels: Vec<LayerChannel> = Vec::new();
-    if wanted.contains(&Layer::Groups)
-        && let Some(message) = contradiction_of_groups(scene, options)
-    {
-        let part = "its light groups as layers".to_owned();
+    if let Some((layer, message)) = contradiction(wanted, scene, options) {
+        let part = format!("its layer {}", layer.name());
         return Err(RenderError::InvalidScene(InvalidScene { part, message }).into());
     }
     for &layer in wanted {
@@ -98,8 +97,31 @@ fn renders_of(scene: &Scene, layer: Layer) -> Vec<RenderedLayer> {
     layer.kernel().map(RenderedLayer::Kernel).into_iter().collect()
 }
 
+/// The first of the layers that cannot be rendered of a scene with these options, and a sentence about why. None where all can.
+pub fn contradiction(wanted: &[Layer], scene: &Scene, options: &RenderOptions) -> Option<(Layer, String)> {
+    wanted.iter().find_map(|&layer| {
+        let message = match layer {
+            Layer::Groups => contradiction_of_groups(scene, options),
+            Layer::Motion => contradiction_of_motion(scene),
+            _ => None,
+        };
+        message.map(|message| (layer, message))
+    })
+}
+
+/// A sentence about why the camera has no motion vectors. None where it has.
+fn contradiction_of_motion(scene: &Scene) -> Option<String> {
+    let is_flat = scene.camera.window(DVec2::from(scene.film.size.map(f64::from))).is_some();
+    (!is_flat).then(|| {
+        format!(
+            "motion vectors are of flat pictures, and the camera's projection is \"{}\"; leave the layer out, or render a flat picture (--projection perspective)",
+            scene.camera.projection.name()
+        )
+    })
+}
+
 /// A sentence about why light groups cannot be rendered as layers that add up to the picture. None where they can.
-pub fn contradiction_of_groups(scene: &Scene, options: &RenderOptions) -> Option<String> {
+fn contradiction_of_groups(scene: &Scene, options: &RenderOptions) -> Option<String> {
     let ends_by = |what: &str| {
         Some(format!(
             "light groups are of all samples of the picture, and {what} decides how many it has; state them by --spp alone"

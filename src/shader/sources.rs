@@ -106,6 +106,7 @@ shader_files![
     "shading/path/guided_phase.wgsl",
     "shading/path/layer.wgsl",
     "shading/path/mis.wgsl",
+    "shading/path/object_layer.wgsl",
     "shading/path/path.wgsl",
     "shading/path/planted.wgsl",
     "shading/path/record.wgsl",

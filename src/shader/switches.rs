@@ -146,14 +146,30 @@ const LAYERS: &[&str] = &[
     "LAYER_DIRECT",
     "LAYER_EMISSION",
     "LAYER_INDIRECT",
+    "LAYER_MOTION",
     "LAYER_NORMAL",
+    "LAYER_OBJECT_POSITION",
     "LAYER_POSITION",
     "LAYER_SQUARES",
+    "LAYER_UV",
 ];
 
 /// Layers that are made of something other than the picture's samples.
-const CLAMPED_BY_NONE: &[&str] =
-    &["LAYER_ALBEDO", "LAYER_DEPTH", "LAYER_DIRECT", "LAYER_EMISSION", "LAYER_INDIRECT", "LAYER_NORMAL", "LAYER_POSITION"];
+const CLAMPED_BY_NONE: &[&str] = &[
+    "LAYER_ALBEDO",
+    "LAYER_DEPTH",
+    "LAYER_DIRECT",
+    "LAYER_EMISSION",
+    "LAYER_INDIRECT",
+    "LAYER_MOTION",
+    "LAYER_NORMAL",
+    "LAYER_OBJECT_POSITION",
+    "LAYER_POSITION",
+    "LAYER_UV",
+];
+
+/// Layers of the first surface alone.
+const OF_FIRST_SURFACE: &[&str] = &["LAYER_DEPTH", "LAYER_MOTION", "LAYER_OBJECT_POSITION", "LAYER_POSITION", "LAYER_UV"];
 
 /// The table, in alphabetical order.
 pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
@@ -246,11 +262,22 @@ const OF_FEATURES: &[Switch] = &[
     switch("LAYER_DIRECT").excludes(LAYERS),
     switch("LAYER_EMISSION").excludes(LAYERS),
     switch("LAYER_INDIRECT").excludes(LAYERS),
+    switch("LAYER_MOTION").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
     switch("LAYER_NORMAL").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
-    switch("LAYER_OF_FIRST_SURFACE").requires(&["LAYER_OF_SURFACES"]).one_of(&["LAYER_DEPTH", "LAYER_POSITION"]),
-    switch("LAYER_OF_SURFACES").one_of(&["LAYER_DEPTH", "LAYER_ALBEDO", "LAYER_NORMAL", "LAYER_POSITION"]),
+    switch("LAYER_OBJECT_POSITION").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
+    switch("LAYER_OF_FIRST_SURFACE").requires(&["LAYER_OF_SURFACES"]).one_of(OF_FIRST_SURFACE),
+    switch("LAYER_OF_SURFACES").one_of(&[
+        "LAYER_DEPTH",
+        "LAYER_ALBEDO",
+        "LAYER_MOTION",
+        "LAYER_NORMAL",
+        "LAYER_OBJECT_POSITION",
+        "LAYER_POSITION",
+        "LAYER_UV",
+    ]),
     switch("LAYER_POSITION").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
     switch("LAYER_SQUARES").excludes(LAYERS),
+    switch("LAYER_UV").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
     // Numbers of a path come from a linear congruential generator.
     switch("LCG").excludes(&["SEQUENCE"]),
     switch("LENS"),
@@ -282,6 +309,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("NORMAL_MIRRORING").requires(&["NORMAL_SHADOWING"]),
     switch("NORMAL_SCALES").requires(&["NORMAL_MAPS"]),
     switch("NORMAL_SHADOWING").requires(&["NORMAL_MAPS"]),
+    // Some shape stands elsewhere than in its own space.
+    switch("OBJECT_MAPS").requires(&["LAYER_OBJECT_POSITION"]),
     switch("ONE_LIGHT"),
     switch("ONE_SIDED"),
     switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(IN_HIERARCHY_BESIDE_TRIANGLES),

@@ -132,13 +132,16 @@ impl Verdict {
     }
 }
 
-/// Shrinks a scene's film so that its longer side is at most `side`.
+/// Shrinks a scene's film so that its longer side is at most `side`, or has a pixel of each view. It still divides into the camera's views.
 pub fn shrink(scene: &mut Scene, side: u32) {
-    let [width, height] = scene.film.size;
-    let longest = width.max(height);
+    let longest = scene.film.size.into_iter().max().unwrap_or(0);
     if longest > side {
-        let scaled = |x: u32| ((u64::from(x) * u64::from(side)).div_ceil(u64::from(longest)) as u32).max(1);
-        scene.film.size = [scaled(width), scaled(height)];
+        let (tiles, view) = (scene.camera.tiles(), scene.camera.view_size(scene.film.size));
+        let scaled = |x: u32| {
+            let wide = u64::from(x) * u64::from(side);
+            (if tiles == [1, 1] { wide.div_ceil(u64::from(longest)) } else { wide / u64::from(longest) } as u32).max(1)
+        };
+        scene.film.size = [tiles[0] * scaled(view[0]), tiles[1] * scaled(view[1])];
     }
 }
 

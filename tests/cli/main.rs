@@ -10,6 +10,7 @@ mod damage;
 mod denoising;
 mod documents;
 mod endings;
+mod exr_forms;
 mod farm;
 mod faults;
 mod frames;
@@ -32,6 +33,7 @@ mod parts;
 mod picture_files;
 mod picture_tests;
 #[cfg(unix)]
+mod projections;
 mod referee;
 mod regroup;
 mod tight_limits;

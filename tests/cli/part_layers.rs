@@ -7,7 +7,8 @@ use super::*;
 
 const RENDER: &str = "render spheres -q --size 24x16 --max-depth 4";
 /// All that samples make.
-const SAMPLED: &str = "albedo,normal,position,depth,alpha,variance,samples,direct,indirect,emission,ids";
+const SAMPLED: &str =
+    "albedo,normal,position,uv,object_position,motion,depth,alpha,variance,samples,direct,indirect,emission,ids";
 
 fn channels(place: &Workplace, name: &str) -> Channels {
     Channels::read(&place.path(name)).expect("an EXR file")

@@ -10,6 +10,7 @@ use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
+use gpt::reference::layer::layer_scene;
 use gpt::scene::{
     DistanceSampling, Estimator, Guiding, LayerModel, MaterialKind, Meter, MeterKind, MisHeuristic, PhongCosine, PhongHorizon,
     PhongSampling, PixelSampler, SamplerKind, Scene,
@@ -17,7 +18,7 @@ use gpt::scene::{
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
-const OF_DEVICES: [&str; 27] = [
+const OF_DEVICES: [&str; 31] = [
     "ATTRIBUTE_CHUNKS",
     "CLAMP",
     "FILM_TEXTURE",
@@ -27,13 +28,17 @@ const OF_DEVICES: [&str; 27] = [
     "LAYER_DIRECT",
     "LAYER_EMISSION",
     "LAYER_INDIRECT",
+    "LAYER_MOTION",
     "LAYER_NORMAL",
+    "LAYER_OBJECT_POSITION",
     "LAYER_OF_FIRST_SURFACE",
     "LAYER_OF_LIGHT",
     "LAYER_OF_SURFACES",
     "LAYER_POSITION",
     "LAYER_SQUARES",
+    "LAYER_UV",
     "NODE_CHUNKS",
+    "OBJECT_MAPS",
     "OUTSIDE_UNSEEN",
     "PACKETS",
     "PIXEL_LIST",
@@ -163,7 +168,8 @@ fn built_in_scenes_use_every_switch() {
         anywhere.extend(compiled_in(&built_in, &limits, &options));
     }
     for layer in KernelLayer::ALL {
-        anywhere.extend(compiled_in(&built_in[..1], &hardware, &PlanOptions { layer: Some(layer), ..PlanOptions::default() }));
+        let ready = layer_scene(&built_in[0], layer).into_owned();
+        anywhere.extend(compiled_in(&[ready], &hardware, &PlanOptions { layer: Some(layer), ..PlanOptions::default() }));
     }
     let mut clamped = built_in[0].clone();
     clamped.render.clamp = 1.0;

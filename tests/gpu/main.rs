@@ -18,6 +18,7 @@ mod guiding;
 mod layers;
 mod media;
 mod motion;
+mod object_layers;
 mod opacity;
 mod progressive;
 mod ray_queries;

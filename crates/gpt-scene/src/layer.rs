@@ -11,6 +11,14 @@ choices! {
         Normal = "normal",
         /// The place of the first surface in the world: P.X, .Y, .Z.
         Position = "position",
+        /// Texture coordinates of the first surface, the first set of a mesh that has two, before any texture scales or turns them: UV.U, .V.
+        Uv = "uv",
+        /// The place of the first surface in its object's own space: before the transform of the shape, or of the instance, and before its motion, at the
+        /// time of the ray: ObjectPosition.X, .Y, .Z.
+        ObjectPosition = "object_position",
+        /// How far the point of the first surface goes across the picture from the shutter's opening to its closing, by its own motion and the camera's, in
+        /// pixels: Motion.X to the right, Motion.Y upward; 0 where nothing is met. The point is the one that the ray meets at its own time.
+        Motion = "motion",
         /// Distance of the first surface along the viewing direction: Z. Of a camera that sees around, from the camera's position.
         Depth = "depth",
         /// Share of the pixel in which a surface is met, by which R, G and B are multiplied already: A.
@@ -49,6 +57,12 @@ choices! {
         Normal = "normal",
         /// Points of surfaces.
         Position = "position",
+        /// Texture coordinates of surfaces.
+        Uv = "uv",
+        /// Points of surfaces in the space of their object.
+        ObjectPosition = "object_position",
+        /// Ways across the picture while the shutter is open.
+        Motion = "motion",
         /// Distances along the viewing direction, or from the camera's position.
         Depth = "depth",
         /// Squares of radiance.
@@ -126,6 +140,9 @@ impl Layer {
             Self::Albedo => Some(KernelLayer::Albedo),
             Self::Normal => Some(KernelLayer::Normal),
             Self::Position => Some(KernelLayer::Position),
+            Self::Uv => Some(KernelLayer::Uv),
+            Self::ObjectPosition => Some(KernelLayer::ObjectPosition),
+            Self::Motion => Some(KernelLayer::Motion),
             Self::Depth | Self::Alpha => Some(KernelLayer::Depth),
             Self::Variance => Some(KernelLayer::Squares),
             Self::Direct => Some(KernelLayer::Direct),
@@ -154,6 +171,9 @@ impl KernelLayer {
             Self::Albedo => ("Albedo", &["R", "G", "B"]),
             Self::Normal => ("N", &["X", "Y", "Z"]),
             Self::Position => ("P", &["X", "Y", "Z"]),
+            Self::Uv => ("UV", &["U", "V"]),
+            Self::ObjectPosition => ("ObjectPosition", &["X", "Y", "Z"]),
+            Self::Motion => ("Motion", &["X", "Y"]),
             Self::Depth => ("Z", &[]),
             Self::Squares => ("Square", &["R", "G", "B"]),
             Self::Direct => ("Direct", &["R", "G", "B"]),
@@ -168,12 +188,12 @@ impl KernelLayer {
     /// True for layers of the surfaces that paths meet, not of light. Their means are over the samples that
     /// met something.
     pub fn is_of_surfaces(self) -> bool {
-        matches!(self, Self::Albedo | Self::Normal | Self::Position | Self::Depth)
+        matches!(self, Self::Albedo | Self::Normal) || self.is_of_first_surface()
     }
 
     /// True for layers of the first surface, not of what is seen in it.
     pub fn is_of_first_surface(self) -> bool {
-        matches!(self, Self::Position | Self::Depth)
+        matches!(self, Self::Position | Self::Uv | Self::ObjectPosition | Self::Motion | Self::Depth)
     }
 
     /// True if light that reaches the camera over so many edges belongs to it.
@@ -192,6 +212,9 @@ impl KernelLayer {
             Self::Albedo => &["LAYER_ALBEDO", "LAYER_OF_SURFACES"],
             Self::Normal => &["LAYER_NORMAL", "LAYER_OF_SURFACES"],
             Self::Position => &["LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES", "LAYER_POSITION"],
+            Self::Uv => &["LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES", "LAYER_UV"],
+            Self::ObjectPosition => &["LAYER_OBJECT_POSITION", "LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES"],
+            Self::Motion => &["LAYER_MOTION", "LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES"],
             Self::Depth => &["LAYER_DEPTH", "LAYER_OF_FIRST_SURFACE", "LAYER_OF_SURFACES"],
             Self::Squares => &["LAYER_SQUARES"],
             Self::Direct => &["LAYER_DIRECT"],

@@ -140,16 +140,19 @@ class Scene:
         variant: Optional[str] = None,
         assets_root: Optional[Path] = None,
         environment: Optional[Path] = None,
+        projection: Optional[str] = None,
     ) -> Scene:
         """Reads a scene file (.toml), a model (.obj, .ply), a scene of another program (.gltf, .glb, .xml, .pbrt), or a built-in scene by its name.
 
         `strict` refuses substitutes for missing textures and materials, and imports that are not exact. `definitions` are values of a Mitsuba
         file's parameters. `camera` and `variant` name those of an imported file that has several. Files that the scene names have to lie in
         `assets_root`, where one is given. `environment` is a map that lights the scene in place of what does otherwise.
+        `projection` sees the scene so from where its camera stands: perspective, orthographic, equirectangular, cylindrical, fisheye, cube_map,
+        stereo, stereo_panorama.
         """
         values = [(key, str(value)) for key, value in (definitions or {}).items()]
         root, surroundings = (None if each is None else os.fspath(each) for each in (assets_root, environment))
-        return Scene(_native.Scene.load(os.fspath(path), strict, values, camera, variant, root, surroundings))
+        return Scene(_native.Scene.load(os.fspath(path), strict, values, camera, variant, root, surroundings, projection))
 
     @staticmethod
     def from_dict(description: Mapping[str, Any]) -> Scene:
@@ -213,8 +216,8 @@ class Scene:
         """Renders the scene. Other threads of Python run meanwhile, and Ctrl-C ends it.
 
         `spp`, `size` and `seed` stand for what the scene says. `device`: auto, gpu, cpu, or a part of an adapter's name. `layers`: albedo, normal,
-        position, depth, alpha, variance, samples, low, high, direct, indirect, emission, ids, cryptomatte, groups. `time_limit` in seconds. `target_error`:
-        the relative mean squared error to reach, with `spp` as the most it may take. `adaptive`: more samples where the noise is. `target_interval`:
+        position, uv, object_position, motion, depth, alpha, variance, samples, low, high, direct, indirect, emission, ids, cryptomatte, groups.
+        `time_limit` in seconds. `target_error`: the relative mean squared error to reach, with `spp` as the most it may take. `adaptive`: more samples where the noise is. `target_interval`:
         the share to which the truth is to be known, at this `confidence` (0.99), of the picture's mean, of its tiles or its pixels (`interval_of`);
         upper ends stand on a bound of samples or on what was seen (`interval_by`). `first_sample` and `crop` (first column and row, width and height)
         render a part of the samples or the pixels; the picture then has the region's size. `progress` is called with the samples that are done and

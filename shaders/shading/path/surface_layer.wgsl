@@ -5,6 +5,7 @@
 #import core/parameters.wgsl
 #import core/sampler.wgsl
 #import shading/light/hidden_emitters.wgsl
+#import shading/path/object_layer.wgsl
 #import shading/path/record.wgsl
 #import shading/path/scatterer.wgsl
 #import shading/material/scattering.wgsl
@@ -25,13 +26,19 @@ fn is_followed(drawn: BsdfSample) -> bool {
 }
 
 // The layer's value at a surface that a path of this throughput met and that is not followed further.
-fn surface_value(throughput: Spectrum, surface: Surface, drawn: BsdfSample) -> vec3<f32> {
+fn surface_value(path: Path, hit: Hit, surface: Surface, drawn: BsdfSample) -> vec3<f32> {
     if HAS_LAYER_ALBEDO {
-        return throughput * drawn.weight;
+        return path.throughput * drawn.weight;
     } else if HAS_LAYER_NORMAL {
         return surface.shading_normal;
     } else if HAS_LAYER_POSITION {
         return surface.position;
+    } else if HAS_LAYER_UV {
+        return vec3<f32>(surface.uv.xy, 0.0);
+    } else if HAS_LAYER_OBJECT_POSITION {
+        return object_position(hit, surface.position);
+    } else if HAS_LAYER_MOTION {
+        return screen_motion(hit, path.pixel, surface.position, NOTHING_MET);
     } else if HAS_DEPTH_BY_DISTANCE {
         return vec3<f32>(distance(surface.position, view.position.xyz));
     } else {
@@ -76,7 +83,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         drawn = scattering.drawn;
     }
     if !is_followed(drawn) {
-        shading.radiance = surface_value(incoming.throughput, surface, drawn);
+        shading.radiance = surface_value(incoming, hit, surface, drawn);
         return shading;
     }
     shading.alive = true;

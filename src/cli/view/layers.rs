@@ -28,7 +28,13 @@ pub fn layer_images(channels: &[LayerChannel], [width, height]: [u32; 2]) -> Vec
             continue;
         }
         match layers.iter_mut().find(|layer| layer.name == name) {
-            Some(layer) if component < 3 => layer.places[component] = *place,
+            Some(layer) if component < 3 => {
+                layer.places[component] = *place;
+                if component == 1 {
+                    // The third number of a layer of two is 0.
+                    layer.places[2] = 2;
+                }
+            }
             Some(_) => {}
             None => {
                 layers.push(LayerImage { name: name.to_owned(), width, height, places: [*place; 3], picture: picture.clone() })

@@ -76,9 +76,15 @@ fn the_digest_of_a_file_is_that_of_what_it_holds() {
     let check = || crate::picture_file::open_exr::check_digest(crate::input::open_to_decode(&path).unwrap());
     let counts: Vec<u32> = (0..37 * 20).map(|pixel| if pixel < 100 { 7 } else { 3 }).collect();
     for compression in ExrCompression::ALL {
-        for (half, is_part) in [(false, false), (true, false), (false, true)] {
+        for (half, is_part, tiled, parts) in [
+            (false, false, false, false),
+            (true, false, false, false),
+            (false, true, false, false),
+            (false, false, true, false),
+            (false, true, true, true),
+        ] {
             let part = is_part.then_some(crate::output::PartSpec { film: [100, 50], origin: [11, 7] });
-            let spec = PictureSpec { exr: ExrOptions { half, compression }, part, ..spec(37, 20, 1) };
+            let spec = PictureSpec { exr: ExrOptions { half, compression, tiled, parts }, part, ..spec(37, 20, 1) };
             let mut file = PictureFile::create(&path, PictureFormat::Exr, &spec).unwrap();
             let band = Band { counts: Some(counts.clone()), ..Band::clone(&band(0, 20, 37, 3)) };
             file.write_band(&Arc::new(band)).unwrap();
@@ -245,10 +251,15 @@ fn exr_files_keep_what_their_options_promise() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.exr");
     for compression in ExrCompression::ALL {
-        for half in [false, true] {
-            let spec = PictureSpec { exr: ExrOptions { half, compression }, ..spec(37, 20, 1) };
-            let mut file = PictureFile::create(&path, PictureFormat::Exr, &spec).unwrap();
-            file.write_band(&band(0, 20, 37, 1)).unwrap();
+        // A picture of several tiles; its rows come in bands that do not end where tiles do.
+        for (half, tiled) in [(false, false), (true, false), (false, true), (true, true)] {
+            let [width, height] = if tiled { [150, 131] } else { [37, 20] };
+            let exr = ExrOptions { half, compression, tiled, parts: false };
+            let mut file =
+                PictureFile::create(&path, PictureFormat::Exr, &PictureSpec { exr, ..spec(width, height, 1) }).unwrap();
+            for first in (0..height).step_by(20) {
+                file.write_band(&band(first, (height - first).min(20), width, 1)).unwrap();
+            }
             file.finish().unwrap();
             let tolerance = match (half, compression) {
                 (true, _) => 2.0_f32.powi(-11),
@@ -256,7 +267,7 @@ fn exr_files_keep_what_their_options_promise() {
                 (false, _) => 0.0,
             };
             for (index, found) in read_image(&path).unwrap().pixels.iter().enumerate() {
-                let wanted = value(index as u32 % 37, index as u32 / 37);
+                let wanted = value(index as u32 % width, index as u32 / width);
                 for (found, wanted) in found.iter().zip(wanted) {
                     let wanted = if half { wanted.min(65_504.0) } else { wanted };
                     let error = (found - wanted).abs();

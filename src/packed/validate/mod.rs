@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use super::constants::NONE;
 use super::error::PackError;
+use super::object;
 use super::scene::PackedScene;
 use words::{Array, Word};
 
@@ -35,6 +36,7 @@ impl PackedScene {
         self.check_lengths()?;
         Array::ALL.into_iter().try_for_each(|array| self.check_indices(array))?;
         self.check_motions()?;
+        object::check(&self.objects, self.primitives.len())?;
         self.check_instances()?;
         self.check_primitives()?;
         self.check_hierarchy()?;
@@ -63,7 +65,7 @@ impl PackedScene {
             ("attributes", 4 * self.attributes.len()),
             ("instances", 6 * self.instances.len()),
             ("nodes", 3 * self.hierarchy.nodes.len()),
-            ("tables", tables + self.motions.len()),
+            ("tables", tables + self.motions.len() + self.objects.len()),
             ("texels", self.textures.texel_words()),
         ];
         match lengths.into_iter().find(|&(_, length)| length >= NONE as usize) {

@@ -19,7 +19,7 @@ pub use pose::{PathTime, Pose};
 pub use ray::{Ray, SurfacePoint};
 pub use seen::Outline;
 pub use shape::Primitive;
-pub use world::{Hit, Surface, World};
+pub use world::{Hit, PointAtRest, Surface, World};
 
 #[cfg(test)]
 mod tests;

@@ -26,6 +26,13 @@ pub struct Hit {
     local: Local,
 }
 
+/// A point of a surface, where it is while the surface rests: in the world, or, of an instance, in the space of its group.
+#[derive(Debug, Clone, Copy)]
+pub struct PointAtRest {
+    pub surface: SurfaceId,
+    pub position: DVec3,
+}
+
 /// All there is to know of a surface at a point, whichever way it is looked at.
 #[derive(Debug, Clone, Copy)]
 pub struct Surface {
@@ -336,6 +343,33 @@ impl World {
                     carried: Spectrum::WHITE,
                 }
             }
+        }
+    }
+
+    /// The point of a hit of `ray`, where it is at rest.
+    pub fn at_rest(&self, ray: &Ray, hit: &Hit, time: &PathTime) -> PointAtRest {
+        let position = match hit.surface {
+            SurfaceId::Primitive(index) => {
+                let ray = self.pose(index, time).map_or(*ray, |pose| pose.ray_to_rest(ray));
+                self.primitives[index].element().point(&ray, hit.distance, hit.local).position
+            }
+            SurfaceId::Instanced { instance, triangle } => {
+                let PlacedTriangle { triangle, pose, .. } = self.instances.triangle(instance, triangle, time);
+                triangle.point(&pose.ray_to_rest(ray), hit.distance, hit.local).position
+            }
+            SurfaceId::Infinite(index) => self.infinite[index].0.element().point(ray, hit.distance, hit.local).position,
+        };
+        PointAtRest { surface: hit.surface, position }
+    }
+
+    /// The place of such a point in the world at a time.
+    pub fn place_of(&self, point: &PointAtRest, time: &PathTime) -> DVec3 {
+        match point.surface {
+            SurfaceId::Primitive(index) => self.pose(index, time).map_or(point.position, |pose| pose.place(point.position)),
+            SurfaceId::Instanced { instance, triangle } => {
+                self.instances.triangle(instance, triangle, time).pose.place(point.position)
+            }
+            SurfaceId::Infinite(_) => point.position,
         }
     }
 

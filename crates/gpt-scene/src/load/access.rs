@@ -7,6 +7,7 @@ use super::files::Files;
 use super::reading::ReadingProgress;
 use super::view::ModelView;
 use crate::file_log::FileLog;
+use crate::scene::CameraPreset;
 
 /// Options of the reader of a scene.
 #[derive(Debug, Clone, Default)]
@@ -19,6 +20,8 @@ pub struct LoadOptions {
     pub definitions: Vec<(String, String)>,
     /// The camera of an imported file that has several, by its name.
     pub camera: Option<String>,
+    /// The way in which the scene is seen, in place of its camera's own. The picture is then as wide as fits its height.
+    pub preset: Option<CameraPreset>,
     /// The variant of a glTF's materials that is shown, by its name (`KHR_materials_variants`). None: what primitives name themselves.
     pub variant: Option<String>,
     /// How a model is shown that comes without camera and light. Of scene files, only its environment counts.

@@ -64,6 +64,9 @@ impl SceneSource {
         if let Some(map) = &options.view.environment {
             framing::light_by(&mut scene, map, options.access()?)?;
         }
+        if let Some(preset) = options.preset {
+            scene.see_by(preset);
+        }
         Ok(scene)
     }
 

@@ -32,6 +32,7 @@ pub mod motion;
 mod placed_groups;
 mod placement;
 mod precision;
+mod seen_by;
 pub mod settings;
 pub mod shape;
 mod sources;
@@ -44,8 +45,9 @@ pub mod volume;
 pub use animation::Animation;
 pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{
-    Aperture, ApertureShape, BrownConrady, Camera, CubeLayout, CubeMap, Cylindrical, EXPOSURE_STRETCHES, Equirectangular, Eyes,
-    Fisheye, FisheyeFit, FisheyeMapping, Intrinsics, KannalaBrandt, Projection, Stereo, StereoLayout, ViewPlace, Window,
+    Aperture, ApertureShape, BrownConrady, Camera, CameraPreset, CubeLayout, CubeMap, Cylindrical, EXPOSURE_STRETCHES,
+    Equirectangular, Eyes, Fisheye, FisheyeFit, FisheyeMapping, Intrinsics, KannalaBrandt, Projection, Stereo, StereoLayout,
+    ViewPlace, Window,
 };
 pub use check::FARTHEST;
 pub use digest::{BulkDigest, digest};

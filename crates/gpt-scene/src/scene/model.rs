@@ -17,7 +17,7 @@ use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
 use super::sources::Sources;
 use super::texture::Texture;
-use crate::layer::Layer;
+use crate::layer::{KernelLayer, Layer};
 
 /// Everything a render needs: a camera, surfaces, materials, lights, and how light is estimated. It is read by [`Scene::load`] or
 /// [`Scene::from_toml`].
@@ -32,6 +32,9 @@ pub struct Scene {
     /// Layers that are written beside the picture.
     #[doc(hidden)]
     pub layers: Vec<Layer>,
+    /// The layer that this scene was made ready for, whose kernels need more of it than those of the picture. Scene files have no key for it.
+    #[doc(hidden)]
+    pub ready_for: Option<KernelLayer>,
     #[doc(hidden)]
     pub camera: Camera,
     /// The camera at [`EXPOSURE_STRETCHES`](crate::scene::EXPOSURE_STRETCHES) + 1 times, evenly from the shutter's opening to its closing, between

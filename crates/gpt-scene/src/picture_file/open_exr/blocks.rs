@@ -39,7 +39,8 @@ pub fn read_lines(mut file: AnyFile, part: usize, wanted: &[usize], mut take: im
         windows.show([block.pixel_position.x(), block.pixel_position.y()], size)
     };
     let windows = meta.headers.get(part).map(Windows::of).ok_or("it has no such part")?;
-    let take_block = |header: &Header, block: UncompressedBlock| {
+    let take_block = |headers: &[Header], block: UncompressedBlock| {
+        let header = &headers[part];
         for line in block.lines(&header.channels) {
             let channel = line.location.channel;
             if wanted.contains(&channel) {
@@ -48,32 +49,31 @@ pub fn read_lines(mut file: AnyFile, part: usize, wanted: &[usize], mut take: im
             }
         }
     };
-    for_each_block(file, part, |block| is_shown(windows, block), take_block).map(|_| ())
+    for_each_block(file, |block| block.layer == part && is_shown(windows, block), take_block).map(|_| ())
 }
 
-/// Reads the blocks of a part at full resolution that are asked for, in any order, and answers the part's header.
+/// Reads the blocks at full resolution that are asked for, in any order, and answers the headers of all parts.
 pub fn for_each_block(
     file: AnyFile,
-    part: usize,
     is_wanted: impl Fn(&BlockIndex) -> bool,
-    mut take: impl FnMut(&Header, UncompressedBlock),
-) -> Result<Header, String> {
+    mut take: impl FnMut(&[Header], UncompressedBlock),
+) -> Result<Vec<Header>, String> {
     let reader = exr::block::read(file, false).map_err(|error| error.to_string())?;
-    let header = reader.headers().get(part).ok_or("it has no such part")?.clone();
+    let headers = reader.headers().to_vec();
     let reader = reader
-        .filter_chunks(false, |_, _, block: BlockIndex| block.layer == part && block.level == Vec2(0, 0) && is_wanted(&block))
+        .filter_chunks(false, |_, _, block: BlockIndex| block.level == Vec2(0, 0) && is_wanted(&block))
         .map_err(|error| error.to_string())?;
     let insert = |_: &_, block: UncompressedBlock| {
-        take(&header, block);
+        take(&headers, block);
         Ok(())
     };
-    let read = if header.layer_size.area() < WORTH_THREADS {
+    let read = if headers.iter().all(|header| header.layer_size.area() < WORTH_THREADS) {
         reader.decompress_sequential(false, insert)
     } else {
         reader.decompress_parallel(false, insert)
     };
     read.map_err(|error| error.to_string())?;
-    Ok(header)
+    Ok(headers)
 }
 
 /// True where some channel has fewer numbers than pixels.

@@ -29,10 +29,12 @@ pub struct LineDigests {
 }
 
 impl LineDigests {
-    /// Adds the lines of a block, as they stand in memory.
-    pub fn add(&mut self, header: &Header, block: &UncompressedBlock) {
+    /// Adds the lines of a block, as they stand in memory, of a file of these parts. Channels are numbered through all parts.
+    pub fn add(&mut self, headers: &[Header], block: &UncompressedBlock) {
+        let Some(header) = headers.get(block.index.layer) else { return };
+        let before = first_channel(headers, block.index.layer);
         for line in block.lines(&header.channels) {
-            let place = [line.location.channel, line.location.position.x(), line.location.position.y()];
+            let place = [before + line.location.channel, line.location.position.x(), line.location.position.y()];
             let mut hash = Sha256::new();
             place.iter().for_each(|number| hash.update((*number as u64).to_le_bytes()));
             hash.update(little_endian(line.value, header.channels.list[line.location.channel].sample_type));
@@ -41,8 +43,9 @@ impl LineDigests {
         }
     }
 
-    /// The digest of a file that has these lines and this header, whose own entry for it does not count.
-    pub fn finish(&self, header: &Header) -> String {
+    /// The digest of a file that has these lines and these parts; the first one's entries are the file's, of which its own does not count.
+    pub fn finish(&self, headers: &[Header]) -> String {
+        let Some(header) = headers.first() else { return placeholder() };
         let mut hash = Sha256::new();
         hash.update(self.sum.to_le_bytes());
         hash.update(self.lines.to_le_bytes());
@@ -58,7 +61,7 @@ impl LineDigests {
             hash.update((text.len() as u64).to_le_bytes());
             hash.update(text);
         };
-        for channel in &header.channels.list {
+        for channel in headers.iter().flat_map(|header| &header.channels.list) {
             text(channel.name.as_slice());
             text(&[match channel.sample_type {
                 SampleType::U32 => 0,
@@ -85,10 +88,11 @@ impl LineDigests {
     ///
     /// # Errors
     /// Digests that differ.
-    fn check(&self, header: &Header) -> Result<bool, String> {
+    fn check(&self, headers: &[Header]) -> Result<bool, String> {
+        let Some(header) = headers.first() else { return Ok(false) };
         let stated = header.own_attributes.other.iter().find(|(key, _)| states_digest(key));
         let Some((_, stated)) = stated else { return Ok(false) };
-        if matches!(stated, AttributeValue::Text(stated) if stated.eq(self.finish(header).as_str())) {
+        if matches!(stated, AttributeValue::Text(stated) if stated.eq(self.finish(headers).as_str())) {
             return Ok(true);
         }
         Err(format!(
@@ -103,23 +107,30 @@ pub fn placeholder() -> String {
     "0".repeat(2 * BYTES)
 }
 
-/// Reads the channels that are `wanted` of a file of one part whole, as [`super::read_lines`] does, and holds the digest against what came.
+/// The number of a part's first channel, counted through all parts.
+pub fn first_channel(headers: &[Header], part: usize) -> usize {
+    headers[..part].iter().map(|header| header.channels.list.len()).sum()
+}
+
+/// Reads the channels that are `wanted`, counted through all parts, of a whole file, as [`super::read_lines`] does of a part, and holds the digest
+/// against what came.
 ///
 /// # Errors
 /// A damaged file, and one without a digest.
 pub fn read_checked_lines(file: AnyFile, wanted: &[usize], mut take: impl FnMut(Line<'_>)) -> Result<(), String> {
     let mut numbers = Vec::new();
-    let found = check_blocks(file, |header, block| {
-        for line in block.lines(&header.channels).filter(|line| wanted.contains(&line.location.channel)) {
+    let found = check_blocks(file, |headers, block| {
+        let (header, before) = (&headers[block.index.layer], first_channel(headers, block.index.layer));
+        for line in block.lines(&header.channels).filter(|line| wanted.contains(&(before + line.location.channel))) {
             let (channel, position) = (line.location.channel, line.location.position);
             numbers_of(header.channels.list[channel].sample_type, line.value, &mut numbers);
-            take((channel, [position.x(), position.y()], &numbers));
+            take((before + channel, [position.x(), position.y()], &numbers));
         }
     })?;
     if found { Ok(()) } else { Err(format!("its header has no {DIGEST_KEY}")) }
 }
 
-/// Reads a file of one part whole, and holds its digest against what came. Answers whether it has one: files of other programs have none.
+/// Reads a whole file, and holds its digest against what came. Answers whether it has one: files of other programs have none.
 ///
 /// # Errors
 /// A file that is damaged, and one that cannot be read.
@@ -130,18 +141,17 @@ pub fn check_digest(mut file: AnyFile) -> Result<bool, String> {
     if meta.headers.first().is_some_and(states) { check_blocks(file, |_, _| {}) } else { Ok(false) }
 }
 
-fn check_blocks(file: AnyFile, mut take: impl FnMut(&Header, &UncompressedBlock)) -> Result<bool, String> {
+fn check_blocks(file: AnyFile, mut take: impl FnMut(&[Header], &UncompressedBlock)) -> Result<bool, String> {
     let mut digests = LineDigests::default();
-    let header = for_each_block(
+    let headers = for_each_block(
         file,
-        0,
         |_| true,
-        |header, block| {
-            digests.add(header, &block);
-            take(header, &block);
+        |headers, block| {
+            digests.add(headers, &block);
+            take(headers, &block);
         },
     )?;
-    digests.check(&header)
+    digests.check(&headers)
 }
 
 fn states_digest(key: &Text) -> bool {

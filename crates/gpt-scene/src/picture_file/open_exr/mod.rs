@@ -14,7 +14,7 @@ use glam::{DMat3, DVec3};
 
 use blocks::RESAVE;
 pub use blocks::read_lines;
-pub use digest::{DIGEST_KEY, LineDigests, check_digest, placeholder, read_checked_lines};
+pub use digest::{DIGEST_KEY, LineDigests, check_digest, first_channel, placeholder, read_checked_lines};
 pub use windows::Windows;
 
 use super::pixels::{Hints, Sink, linear};
@@ -28,6 +28,8 @@ use colours::{Colours, Mixture};
 pub struct ExrFile {
     file: AnyFile,
     header: Header,
+    /// The headers of the other parts, each with its place.
+    others: Vec<(usize, Header)>,
     windows: Windows,
     colours: Colours,
     attributes: Attributes,
@@ -71,7 +73,9 @@ impl ExrFile {
     pub fn open(mut file: AnyFile, color_space: Option<ColorSpace>) -> Result<Self, String> {
         let headers = headers(&mut file)?;
         let mut colours = Colours::choose(&headers)?;
-        let header = headers.into_iter().nth(colours.part).ok_or("has no picture")?;
+        let (mut picture, others): (Vec<_>, Vec<_>) =
+            headers.into_iter().enumerate().partition(|(part, _)| *part == colours.part);
+        let (_, header) = picture.pop().ok_or("has no picture")?;
         let windows = Windows::of(&header);
         let attributes = Attributes::of(&header, color_space, &mut colours.notes);
         let covered = windows.covered();
@@ -79,7 +83,7 @@ impl ExrFile {
             let what = "its pixels (dataWindow) lie outside of what it shows (displayWindow): the picture is black";
             colours.notes.push(what.to_owned());
         }
-        Ok(Self { file, header, windows, colours, attributes })
+        Ok(Self { file, header, others, windows, colours, attributes })
     }
 
     pub fn windows(&self) -> Windows {
@@ -93,6 +97,13 @@ impl ExrFile {
 
     pub fn header(&self) -> &Header {
         &self.header
+    }
+
+    /// The parts that lie where the picture does, the picture's first, each with its place among all.
+    pub fn layers(&self) -> impl Iterator<Item = (usize, &Header)> {
+        let fits = |header: &Header| Windows::of(header) == self.windows;
+        let others = self.others.iter().filter(move |(_, header)| fits(header)).map(|(part, header)| (*part, header));
+        std::iter::once((self.colours.part, &self.header)).chain(others)
     }
 
     pub fn notes(&self) -> &[String] {
@@ -124,7 +135,7 @@ impl ExrFile {
 
     /// Does the work of [`super::PictureFile::decode`].
     pub fn decode(self, sink: Sink<'_>) -> Result<(), String> {
-        let Self { file, header, windows, colours, attributes } = self;
+        let Self { file, header, windows, colours, attributes, .. } = self;
         let (space, matrix) = (attributes.color_space, attributes.matrix);
         let finish = move |pixel: [f32; 4]| finish(pixel, space, matrix);
         let mut place = |at: [usize; 2], pixels: &[[f32; 4]]| {

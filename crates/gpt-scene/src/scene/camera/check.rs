@@ -71,7 +71,10 @@ impl Camera {
     }
 
     /// Checks that a picture of so many pixels divides into its views, and that these see something.
-    pub(crate) fn check_views(&self, film: [u32; 2]) -> Check {
+    ///
+    /// # Errors
+    /// The mistake, in words.
+    pub fn check_views(&self, film: [u32; 2]) -> Check {
         let [columns, rows] = self.tiles();
         if !film[0].is_multiple_of(columns) || !film[1].is_multiple_of(rows) {
             let [width, height] = film;
