@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::colour::{Colour, Scalar, TextureReference};
 use super::document::Document;
+use super::light_link::ReceiverName;
 use super::reference::{FileOr, TextureName};
 use super::suggestion::did_you_mean_name;
 use super::value::{Located, Rule, Vector, vector};
@@ -91,6 +92,8 @@ pub struct Resolver<'a> {
     pub(super) deformation: Option<Deformation>,
     /// The material of faces that name none.
     pub(super) unnamed_material: Option<MaterialId>,
+    /// Names of receivers that lamps list.
+    pub(super) linked_receivers: Vec<Located<ReceiverName>>,
 }
 
 impl<'a> Resolver<'a> {
@@ -115,6 +118,7 @@ impl<'a> Resolver<'a> {
             ranges: RefCell::default(),
             deformation: None,
             unnamed_material: None,
+            linked_receivers: Vec::new(),
         }
     }
 
