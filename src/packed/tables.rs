@@ -19,6 +19,7 @@ pub struct Tables {
     pub first_volume: u32,
     pub first_light_node: u32,
     pub first_light_profile: u32,
+    pub first_link: u32,
 }
 
 impl Tables {
@@ -37,6 +38,7 @@ impl Tables {
         tables.first_volume = tables.append(&packed.materials.media.volumes.volumes);
         tables.first_light_node = tables.append(&packed.light_nodes);
         tables.first_light_profile = tables.append(&packed.light_profiles);
+        tables.first_link = tables.append(&packed.links.words());
         tables
     }
 

@@ -174,7 +174,10 @@ mod tests {
     #[test]
     fn names_have_numbers_and_the_33rd_is_one_too_many() {
         let mut links = LightLinks::default();
-        assert_eq!((links.named("hero"), links.named(REST), links.named("set"), links.named("hero")), (Ok(1), Ok(0), Ok(2), Ok(1)));
+        assert_eq!(
+            (links.named("hero"), links.named(REST), links.named("set"), links.named("hero")),
+            (Ok(1), Ok(0), Ok(2), Ok(1))
+        );
         assert_eq!(links.names().collect::<Vec<_>>(), [REST, "hero", "set"]);
         assert!(links.named("A hero").unwrap_err().contains("a receiver's name is"));
         (3..32).for_each(|number| assert_eq!(links.named(&format!("r{number}")), Ok(number)));

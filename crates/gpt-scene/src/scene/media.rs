@@ -124,7 +124,11 @@ impl Media {
     /// The media of a scene: those that its materials enclose, those below surfaces, absorbing bodies of glass, and where there are some, a clear one for all other bodies
     /// that let light in through a boundary: within another body they take its place. A blend has the medium of the first part that is not clear.
     pub fn of(scene: &Scene) -> Self {
-        let of_scene = |id: MediumId| Filling { light_group: scene.light_groups.of_medium(id), receiver: scene.light_links.of_medium(id), ..Filling::of(&scene.media[id]) };
+        let of_scene = |id: MediumId| Filling {
+            light_group: scene.light_groups.of_medium(id),
+            receiver: scene.light_links.of_medium(id),
+            ..Filling::of(&scene.media[id])
+        };
         let own = |material: &Material| match (&material.kind, material.interior) {
             (_, Some(id)) => Some(of_scene(id)),
             (MaterialKind::Principled(principled), None) if principled.attenuation.is_some() => {

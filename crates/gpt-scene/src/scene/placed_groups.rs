@@ -100,7 +100,16 @@ mod tests {
 
     fn instances(places: Vec<DAffine3>) -> Instances {
         let (transform, places) = (Transform::default(), Arc::new(places));
-        Instances { label: "instance[0]".into(), group: 0, places, transform, material: None, motion: None, pivot: None, receiver: 0 }
+        Instances {
+            label: "instance[0]".into(),
+            group: 0,
+            places,
+            transform,
+            material: None,
+            motion: None,
+            pivot: None,
+            receiver: 0,
+        }
     }
 
     #[test]

@@ -2,8 +2,8 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::load::file::{write_geometry, write_receiver};
 use crate::load::file::writer::{Writer, direction, line, list, number, numbers, table, text, vector};
+use crate::load::file::{write_geometry, write_receiver};
 use crate::load::{place_rows, write_places};
 use crate::scene::{Group, Instances, MotionStep, Shape, TransformStep};
 

@@ -104,7 +104,16 @@ fn add_instances(scene: &mut Scene) {
             [1.0, -2.0].map(|x| DAffine3::from_scale_rotation_translation(DVec3::new(x, 1.0, 1.0), DQuat::IDENTITY, DVec3::Y));
         let transform = Transform::default();
         let places = Arc::new(places.to_vec());
-        scene.instances.push(Instances { label: "instance".into(), group, places, transform, material, motion, pivot: None, receiver: 0 });
+        scene.instances.push(Instances {
+            label: "instance".into(),
+            group,
+            places,
+            transform,
+            material,
+            motion,
+            pivot: None,
+            receiver: 0,
+        });
     }
 }
 

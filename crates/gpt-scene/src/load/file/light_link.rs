@@ -81,11 +81,13 @@ impl Resolver<'_> {
         let of_shapes = scene.shapes.iter().map(|shape| shape.receiver);
         let of_instances = scene.instances.iter().map(|instances| instances.receiver);
         of_media.chain(of_shapes).chain(of_instances).for_each(|receiver| used[receiver as usize] = true);
-        let known: Vec<String> = scene.light_links.names().zip(&used).filter(|(_, used)| **used).map(|(name, _)| name.to_owned()).collect();
+        let known: Vec<String> =
+            scene.light_links.names().zip(&used).filter(|(_, used)| **used).map(|(name, _)| name.to_owned()).collect();
         for written in std::mem::take(&mut self.linked_receivers) {
             let name = &written.value.0;
             if !known.contains(name) {
-                let message = format!("no shape, instance, import or medium has `receiver = {name:?}`; there are: {}", known.join(", "));
+                let message =
+                    format!("no shape, instance, import or medium has `receiver = {name:?}`; there are: {}", known.join(", "));
                 let error = self.error(&written.place, message);
                 self.note::<()>(Err(error));
             }
@@ -104,7 +106,11 @@ pub fn write_link(mask: LinkMask, writer: &Writer<'_>) -> String {
         list(of.map(|(_, name)| text(name)))
     };
     // Numbers without a name are those that `lights_all_but` leaves lit.
-    if mask.0 >> 31 == 1 && links.names().len() < 32 { line("lights_all_but", &names(false)) } else { line("lights_only", &names(true)) }
+    if mask.0 >> 31 == 1 && links.names().len() < 32 {
+        line("lights_all_but", &names(false))
+    } else {
+        line("lights_only", &names(true))
+    }
 }
 
 /// The line of an object's receiver; nothing for that of the rest.

@@ -85,7 +85,8 @@ impl Description {
             many => (None, Some(place.at(FileOr::InMemory(many.into())))),
         };
         let group = place.at(name.clone());
-        let keys = InstanceEntry { group, transform, places: None, file, material: None, motion: None, pivot: None, receiver: None };
+        let keys =
+            InstanceEntry { group, transform, places: None, file, material: None, motion: None, pivot: None, receiver: None };
         self.file.group.push(GroupEntry { name: place.at(name), shape, instance: Vec::new() });
         self.file.instance.push(place.at(keys));
         Ok(())
