@@ -91,7 +91,10 @@ fn file() -> Value {
     json!({
         "asset": { "version": "2.0", "minVersion": "2.0" },
         "scene": 0,
-        "scenes": [{ "nodes": [0, 1, 2, 3, 6, 8, 9] }, { "nodes": [0, 1] }],
+        "scenes": [
+            { "nodes": [0, 1, 2, 3, 6, 8, 9], "extensions": { "EXT_lights_image_based": { "light": 0 } } },
+            { "nodes": [0, 1] },
+        ],
         "nodes": [
             { "mesh": 0, "translation": [0.0, 0.0, 0.5], "children": [7],
                 "extensions": { "KHR_node_visibility": { "visible": true } } },
