@@ -50,7 +50,8 @@ impl Importer<'_> {
     pub fn image_based_light(&mut self) -> Result<(), String> {
         let scene = self.root.scene.unwrap_or(0);
         let Some(reference) = self.root.scenes.get(scene).and_then(|scene| scene.extensions.get(NAME)) else { return Ok(()) };
-        let number = reference.get("light").and_then(Value::as_u64).ok_or_else(|| format!("{NAME}: scenes[{scene}] names no light"))?;
+        let number =
+            reference.get("light").and_then(Value::as_u64).ok_or_else(|| format!("{NAME}: scenes[{scene}] names no light"))?;
         let lights = self.root.extensions.get(NAME).and_then(|lights| lights.get("lights"));
         let light = lights.and_then(|lights| lights.get(number as usize)).cloned();
         let light = light.ok_or_else(|| format!("there is no {NAME}.lights[{number}]"))?;
@@ -78,7 +79,11 @@ impl Importer<'_> {
         let map = match self.faces(&light) {
             Ok(faces) => {
                 if light.get("specularImages").and_then(Value::as_array).is_some_and(|levels| levels.len() > 1) {
-                    self.drop("specularImages of rough materials", &key, "the sharp ones light everything, whatever its roughness");
+                    self.drop(
+                        "specularImages of rough materials",
+                        &key,
+                        "the sharp ones light everything, whatever its roughness",
+                    );
                 }
                 if light.get("irradianceCoefficients").is_some() {
                     self.drop("irradianceCoefficients", &key, "the pictures light what is dull as well");
@@ -89,7 +94,8 @@ impl Importer<'_> {
                 lat_long(rows, |direction| look_up(&faces, direction))
             }
             Err(reason) => {
-                let coefficients = coefficients(&light).ok_or_else(|| of_light(&format!("{reason}; and it has no 9 irradianceCoefficients")))?;
+                let coefficients =
+                    coefficients(&light).ok_or_else(|| of_light(&format!("{reason}; and it has no 9 irradianceCoefficients")))?;
                 let instead = format!("light as smooth as irradianceCoefficients say it is, not below 0: {reason}");
                 self.approximate("specularImages that cannot be read", &key, &instead);
                 lat_long(ROWS_OF_COEFFICIENTS, |direction| radiance_of(&coefficients, direction))
@@ -119,7 +125,9 @@ impl Importer<'_> {
             let of_image = |message: String| format!("images[{index}]: {message}");
             let file = self.picture(index, &image).map_err(of_image)?;
             let bytes = match &file {
-                FileOr::OnDisk(path) => self.files.read(path, MOST_MODEL_BYTES).map_err(|error| format!("{}: {error}", show(path)))?,
+                FileOr::OnDisk(path) => {
+                    self.files.read(path, MOST_MODEL_BYTES).map_err(|error| format!("{}: {error}", show(path)))?
+                }
                 FileOr::InMemory(file) => file.bytes.to_vec().into(),
                 FileOr::Written(path) => return Err(format!("{path} is not a file of this one")),
             };
