@@ -145,15 +145,21 @@ impl Scene {
         if outside.any(|(index, _)| self.light_links.of_light(index) != all) {
             return Err("all light from outside the scene lights the same receivers".to_owned());
         }
+        self.check_links_of_blends().map_err(|(_, message)| message)
+    }
+
+    /// A blend says what its parts light; the error is the blend and the mistake in words.
+    pub(crate) fn check_links_of_blends(&self) -> Result<(), (MaterialId, String)> {
         for (id, material) in self.materials.iter().enumerate() {
             let MaterialKind::Blend { materials, .. } = &material.kind else { continue };
             let own = self.light_links.of_material(id);
             let other = materials.iter().find(|part| ![LinkMask::ALL, own].contains(&self.light_links.of_material(**part)));
             if let Some(&part) = other {
-                return Err(format!(
+                let message = format!(
                     "the material `{}` is a part of the blend `{}` and says by itself what it lights: surfaces of the blend light as the blend says, so say it there",
                     self.materials[part].name, material.name
-                ));
+                );
+                return Err((id, message));
             }
         }
         Ok(())

@@ -51,7 +51,7 @@ impl Resolver<'_> {
             return Ok(());
         }
         // Materials stand in the order of their entries, and behind them what some of those are made of.
-        check_blends(&self.scene.materials).map_err(|(id, message)| {
+        check_blends(&self.scene.materials).and_then(|()| self.scene.check_links_of_blends()).map_err(|(id, message)| {
             let entry = id.checked_sub(written.len()).map_or(id, |behind| of_entry[behind]);
             self.error(&written[entry].common().name.place, message)
         })?;
