@@ -107,8 +107,9 @@ impl PackedScene {
             let receivers = split_materials(scene, &mut world.primitives, &mut materials);
             PackedLinks::new(scene, (&materials, &receivers), links, &world.instances)
         };
-        for light in lights.iter_mut().filter(|light| light.is_surface() && light.material != NONE) {
-            light.material = places[light.material as usize];
+        // As lights, surfaces have the materials that they have as surfaces.
+        for primitive in world.primitives.iter().filter(|primitive| primitive.light != NONE) {
+            lights[primitive.light as usize].material = primitive.material as u32;
         }
         let (hierarchy, order) = tree::build(&world, traversal, kept)?;
         let packed = Self {

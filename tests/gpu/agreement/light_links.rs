@@ -27,6 +27,7 @@ material = [
   { name = "sheet", type = "diffuse", reflectance = [0.6, 0.4, 0.3], opacity = 0.5 },
   { name = "mirror", type = "mirror" },
   { name = "bubble", type = "pass", interior = "smoke" },
+  { name = "bank", type = "pass", interior = "fog" },
   { name = "panel", type = "emissive", radiance = { texture = "squares", factor = 5 }, lights_all_but = ["ball", "air"] },
   { name = "lamp", type = "diffuse", reflectance = 0.3, emission = [9, 6, 3], opacity = 0.7, lights_only = ["ball", "smoke", "copies"] },
 ]
@@ -36,6 +37,7 @@ shape = [
   { type = "rectangle", corner = [-0.6, 0.2, 0.9], edge_u = [1, 0, 0.3], edge_v = [0, 1, 0], material = "sheet", receiver = "sheet" },
   { type = "sphere", center = [1.3, 0.5, -0.6], radius = 0.5, material = "mirror", receiver = "mirror" },
   { type = "sphere", center = [0.4, 1.6, 0], radius = 0.4, material = "bubble" },
+  { type = "sphere", center = [0, 1, 0], radius = 7, material = "bank" },
   { type = "rectangle", corner = [-1, 2.8, -1], edge_u = [1.5, 0, 0], edge_v = [0, 0, 1.5], material = "panel" },
   { type = "sphere", center = [1.2, 2.2, 0.7], radius = 0.3, material = "lamp" },
 ]
