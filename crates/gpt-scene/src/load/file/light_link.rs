@@ -74,6 +74,10 @@ impl Resolver<'_> {
 
     /// Names that lamps list have to be those of something, or a slip of the pen would leave a lamp dark.
     pub(super) fn check_linked_receivers(&mut self) {
+        // What is wrong itself has no receiver yet.
+        if !self.errors.is_empty() {
+            return;
+        }
         let scene = &self.scene;
         let mut used = vec![false; scene.light_links.names().len()];
         used[0] = true;
