@@ -21,7 +21,7 @@ fn generate(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     store_path(slot, camera_path(pixel, sample_in_pass));
 #if LIGHT_LINKS
-    path_state[PLANE_RADIANCE + slot] = vec4<f32>(BLACK, bitcast<f32>(SEES_ALL_LAMPS << 22u));
+    path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0, 0.0, 0.0, bitcast<f32>(SEES_ALL_LAMPS << 22u));
 #else
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0);
 #endif

@@ -107,7 +107,7 @@ impl PackedScene {
             let receivers = split_materials(scene, &mut world.primitives, &mut materials);
             PackedLinks::new(scene, (&materials, &receivers), links, &world.instances)
         };
-        // As lights, surfaces have the materials that they have as surfaces.
+        // Surfaces have the same material as lights.
         for primitive in world.primitives.iter().filter(|primitive| primitive.light != NONE) {
             lights[primitive.light as usize].material = primitive.material as u32;
         }

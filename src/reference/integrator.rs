@@ -51,7 +51,7 @@ pub struct Integrator {
     hidden: Vec<bool>,
     media: Media,
     layers: LayersOfMaterials,
-    /// Those of all shapes, and behind them of all instances; empty where every lamp lights everything.
+    /// Receivers of all shapes, and behind them of all instances; empty where every lamp lights everything.
     receivers: Vec<ReceiverId>,
     link_of_outside: LinkMask,
     /// From where light arrives, where that was learned.

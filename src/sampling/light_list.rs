@@ -45,7 +45,7 @@ pub struct LightList {
     pub sampler: LightSampler,
 }
 
-/// What each light of a list lights, in its order; empty where each lights all.
+/// The masks of what each light of a list lights, in its order; empty where each lights all.
 pub fn links_of(scene: &Scene, sources: &[LightSource], surfaces: &[EmittingSurface]) -> Vec<LinkMask> {
     if scene.light_links.is_empty() {
         return Vec::new();

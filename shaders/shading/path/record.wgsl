@@ -1,4 +1,5 @@
 // A path on its way, and the outcome of one of its vertices.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/path/scatterer.wgsl
 #import shading/material/scattering.wgsl

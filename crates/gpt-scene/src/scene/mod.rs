@@ -22,6 +22,7 @@ mod light_at;
 pub mod light_groups;
 pub mod light_links;
 mod light_of_groups;
+mod links_of_scene;
 pub mod material;
 pub mod media;
 pub mod medium;

@@ -38,7 +38,7 @@ impl JsonSchema for ReceiverName {
 /// Names of groups of receivers, as a lamp lists them.
 pub type ReceiverNames = Located<Vec<Located<ReceiverName>>>;
 
-/// What a lamp lights, as it is written; all where neither key is.
+/// The keys by which a lamp says what it lights; all where neither is written.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct WrittenLink<'a> {
     pub only: Option<&'a ReceiverNames>,
@@ -67,14 +67,14 @@ impl Resolver<'_> {
         let mut bits = 0;
         for name in &names.value {
             bits |= 1 << self.receiver(Some(name))?;
-            self.linked_receivers.push(name.clone());
+            self.linked_receivers.push(Located { value: name.value.0.clone(), place: name.place.clone() });
         }
         Ok(bits)
     }
 
     /// Names that lamps list have to be those of something, or a slip of the pen would leave a lamp dark.
     pub(super) fn check_linked_receivers(&mut self) {
-        // What is wrong itself has no receiver yet.
+        // Objects that are wrong themselves have no receiver yet.
         if !self.errors.is_empty() {
             return;
         }
@@ -88,7 +88,7 @@ impl Resolver<'_> {
         let known: Vec<String> =
             scene.light_links.names().zip(&used).filter(|(_, used)| **used).map(|(name, _)| name.to_owned()).collect();
         for written in std::mem::take(&mut self.linked_receivers) {
-            let name = &written.value.0;
+            let name = &written.value;
             if !known.contains(name) {
                 let message =
                     format!("no shape, instance, import or medium has `receiver = {name:?}`; there are: {}", known.join(", "));

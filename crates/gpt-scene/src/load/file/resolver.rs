@@ -9,7 +9,6 @@ use glam::DVec3;
 
 use super::colour::{Colour, Scalar, TextureReference};
 use super::document::Document;
-use super::light_link::ReceiverName;
 use super::reference::{FileOr, TextureName};
 use super::suggestion::did_you_mean_name;
 use super::value::{Located, Rule, Vector, vector};
@@ -93,7 +92,7 @@ pub struct Resolver<'a> {
     /// The material of faces that name none.
     pub(super) unnamed_material: Option<MaterialId>,
     /// Names of receivers that lamps list.
-    pub(super) linked_receivers: Vec<Located<ReceiverName>>,
+    pub(super) linked_receivers: Vec<Located<String>>,
 }
 
 impl<'a> Resolver<'a> {

@@ -53,7 +53,7 @@ macro_rules! entries {
                 match self { $($(Self::$variant(keys) => keys.light_group.as_ref(),)*)* }
             }
 
-            /// What it lights.
+            /// The keys that say what it lights.
             fn link(&self) -> WrittenLink<'_> {
                 match self { $($(Self::$variant(keys) => WrittenLink { only: keys.lights_only.as_ref(), all_but: keys.lights_all_but.as_ref() },)*)* }
             }

@@ -59,7 +59,7 @@ impl Resolver<'_> {
         written.iter().try_for_each(|entry| entry.check_parts(self))
     }
 
-    /// What surfaces of a material light, which has to give light itself, or by a part.
+    /// The mask of what surfaces of a material light, which has to give light itself, or by a part.
     fn link_of_material(&mut self, entry: &MaterialEntry) -> Result<LinkMask, SceneError> {
         let link = entry.common().link;
         if let Some(written) = link.only.or(link.all_but)
