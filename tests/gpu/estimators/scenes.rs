@@ -128,7 +128,7 @@ const LINKS: &[Links] = &[
     Links { lamp: "", glow: "", body: "", floor: "" },
     Links { lamp: ", lights_only = [\"body\"]", glow: "", body: BODY, floor: "" },
     Links { lamp: ", lights_all_but = [\"body\"]", glow: ", lights_only = [\"rest\"]", body: BODY, floor: "" },
-    Links { lamp: ", lights_only = [\"rest\", \"floor\"]", glow: ", lights_all_but = [\"body\"]", body: BODY, floor: FLOOR },
+    Links { lamp: ", lights_all_but = [\"floor\"]", glow: ", lights_only = [\"floor\"]", body: "", floor: FLOOR },
 ];
 
 /// Every way of linking lamps, on bodies that let light through, that send it on as mirrors, that stand in the scene as instances, and that glow.
