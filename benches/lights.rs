@@ -198,6 +198,7 @@ fn panel(emitting: usize) -> Scene {
         transform: Transform::default(),
         motion: None,
         portal: false,
+        receiver: 0,
     });
     scene.camera.position = DVec3::new(0.0, 2.0, 7.0);
     scene

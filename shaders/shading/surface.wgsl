@@ -15,6 +15,9 @@
 #import geometry/placed.wgsl
 #import shading/texture/normal_map.wgsl
 #import shading/texture/normal_shadowing.wgsl
+#if LIGHT_LINKS
+#import shading/light/links.wgsl
+#endif
 
 struct Surface {
     position: vec3<f32>,
@@ -45,6 +48,10 @@ struct Surface {
     // With COAT_NORMALS and SECOND_UVS, the directions in which second texture coordinates grow; those of the first where there is one set.
     second_along_u: vec3<f32>,
     second_along_v: vec3<f32>,
+#if LIGHT_LINKS
+    // The receiver that it is, or that a place within a medium is.
+    receiver: u32,
+#endif
 #if CARRIED_LIGHT
     // The throughput of the path that arrives.
     carried: Spectrum,
@@ -139,6 +146,14 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     } else {
         point = shape_point(kind, ray, hit, p0.xyz, p1.xyz, p2.xyz);
     }
+#if LIGHT_LINKS
+    surface.receiver = receiver_of_material(primitive_material(p0.w));
+#if INSTANCES
+    if placement.exists {
+        surface.receiver = receiver_of_instance(hit.instance);
+    }
+#endif
+#endif
     surface.position = point.position;
     surface.area = point.area;
     if HAS_SPHERES && kind == KIND_SPHERE {

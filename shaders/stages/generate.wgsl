@@ -20,6 +20,10 @@ fn generate(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = pass_parameters.first_pixel + slot - sample_in_pass * pass_parameters.pixel_count;
 #endif
     store_path(slot, camera_path(pixel, sample_in_pass));
+#if LIGHT_LINKS
+    path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0, 0.0, 0.0, bitcast<f32>(SEES_ALL_LAMPS << 22u));
+#else
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0);
+#endif
     queues[slot] = slot;
 }

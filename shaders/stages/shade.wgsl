@@ -32,10 +32,16 @@ fn shade(
         }
         shading = shade_vertex(&path, load_hit(slot), vertex_parameters.vertex);
         // The last word changes with every vertex of scenes that use it.
+#if LIGHT_LINKS
+        let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
+        let last_word = path.null_vertices | path.receiver << 22u | path.reference_facing << 28u;
+        path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(last_word));
+#else
         if HAS_NULL_SURFACES || HAS_LIGHT_CELLS || any(shading.radiance != BLACK) {
             let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
             path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices | path.reference_facing << 28u));
         }
+#endif
         if shading.alive {
             store_path(slot, path);
         }

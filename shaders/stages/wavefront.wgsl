@@ -50,6 +50,11 @@ fn load_path(slot: u32) -> Path {
         path.null_vertices = vertices_and_facing & 0x0fffffffu;
         path.reference_facing = vertices_and_facing >> 28u;
     }
+#if LIGHT_LINKS
+    let vertices_and_receiver = bitcast<u32>(path_state[PLANE_RADIANCE + slot].w);
+    path.null_vertices = vertices_and_receiver & 0x003fffffu;
+    path.receiver = (vertices_and_receiver >> 22u) & 63u;
+#endif
     if HAS_TRANSPARENT_SHADOWS {
         path.reference_point = path_state[PLANE_REFERENCE_POINT + slot].xyz;
     }
@@ -61,7 +66,7 @@ fn load_path(slot: u32) -> Path {
     return path;
 }
 
-// Writes all but the radiance, the null vertices, the facing and the hit.
+// Writes all but the radiance, the null vertices, the facing, the receiver and the hit.
 fn store_path(slot: u32, path: Path) {
     let identity = (path.pixel - pass_parameters.first_pixel) | (path.sample_in_pass << 24u);
     path_state[PLANE_ORIGIN + slot] = vec4<f32>(path.ray.origin, bitcast<f32>(identity));

@@ -53,6 +53,7 @@ fn mesh_shape(mesh: Mesh, material: usize) -> Shape {
         transform: Transform::default(),
         motion: None,
         portal: false,
+        receiver: 0,
     }
 }
 
@@ -172,6 +173,7 @@ pub fn forest(trees: u32) -> Result<Scene, SceneError> {
         material: None,
         motion: None,
         pivot: None,
+        receiver: 0,
     });
     Ok(scene)
 }

@@ -6,6 +6,7 @@ use gpt::render::layers::render_layers;
 use gpt::{RenderOptions, Scene};
 
 use super::exit::Failure;
+use super::layers::names_of_groups;
 use super::ready::Ready;
 use super::view::{Live, Watching};
 
@@ -38,7 +39,7 @@ pub fn show(
     let observer = watching.in_advance().without_rows();
     let channels = render_layers(&few, options, (&shown, false), &observer, &mut |_, _| Ok::<_, Failure>(None))?;
     if let Some(channels) = channels {
-        live.layers(&channels, renderer.size());
+        live.layers(&channels, renderer.size(), names_of_groups(&shown, scene));
     }
     Ok(Ready::Renderer(Box::new(renderer), Box::new(scene.clone())))
 }

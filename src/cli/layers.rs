@@ -38,10 +38,20 @@ impl Layers {
         &self.channels
     }
 
+    /// The names of the light groups among them.
+    pub fn groups(&self, scene: &Scene) -> Vec<String> {
+        names_of_groups(&self.names, scene)
+    }
+
     /// The picture with them.
     pub fn in_picture(self, spec: PictureSpec) -> PictureSpec {
         PictureSpec { layers: self.channels, layer_names: self.names, notes: self.notes, ..spec }
     }
+}
+
+/// The names of the light groups that are among these layers of a scene.
+pub fn names_of_groups(layers: &[Layer], scene: &Scene) -> Vec<String> {
+    if layers.contains(&Layer::Groups) { scene.light_group_names().into_iter().map(str::to_owned).collect() } else { Vec::new() }
 }
 
 /// The layers that are asked for, by the command line or else by the scene, and those that denoising is helped by.

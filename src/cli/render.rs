@@ -179,7 +179,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
             Err(Failure::Interrupted) if live.restarts() => return Ok(Done::Outdated(None)),
             layers => layers?,
         };
-    live.layers(layers.channels(), size);
+    live.layers(layers.channels(), size, layers.groups(scene));
     let needs = needs(arguments, scene, options);
     progress.start(needs);
     let mut renderer = ready.renderer(scene, options).inspect_err(|_| progress.clear())?;

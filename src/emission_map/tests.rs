@@ -30,6 +30,7 @@ fn textured_light(image: ImageTexture, rotation_degrees: f64) -> Scene {
         transform: crate::scene::Transform::default(),
         motion: None,
         portal: false,
+        receiver: 0,
     });
     scene
 }

@@ -30,7 +30,7 @@ use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
 use crate::sampling::light_strategy::{LightStrategy, MANY_LIGHTS};
 use crate::sampling::{LightSampleContext, LightTree, Sampling};
-use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, Shape};
+use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, ReceiverId, RenderSettings, SamplerKind, Scene, Shape};
 use crate::spectrum::Spectrum;
 
 /// Share of the light that may come from lights which are in no list, where nobody says how lights are
@@ -396,6 +396,12 @@ impl PathVisitor for Walker {
 
     fn medium(&mut self, _depth: u32, position: DVec3, wo: DVec3, _throughput: Spectrum) {
         self.at = Some(Shaded { at: LightSampleContext::new(position, wo), normal: DVec3::ZERO });
+    }
+
+    fn receiver(&mut self, receiver: ReceiverId) {
+        if let Some(shaded) = &mut self.at {
+            shaded.at = shaded.at.of_receiver(receiver);
+        }
     }
 
     fn scattered(&mut self, sample: &BsdfSample) {

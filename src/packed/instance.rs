@@ -8,7 +8,7 @@ use super::grid::Box3;
 use super::motion::PackedMotion;
 use super::primitive::{KIND_INSTANCE, Primitive, WorldPrimitive};
 use crate::math::outward;
-use crate::scene::MaterialId;
+use crate::scene::{MaterialId, ReceiverId};
 use crate::shader::shared::shared_constants;
 
 /// Share of the largest coordinate by which boxes grow for the rounding of the way to a group's space and back in single precision.
@@ -38,6 +38,8 @@ pub struct WorldInstance {
     /// Index of its motion, or NONE, and the first word of it.
     pub motion: u32,
     pub motion_word: u32,
+    /// The group of receivers that it belongs to.
+    pub receiver: ReceiverId,
 }
 
 /// 96 bytes. A point p of the group is at forward · p + place, and, where it moves, goes on from there about the place.
@@ -165,7 +167,7 @@ mod tests {
                 continue;
             }
             let map = DAffine3 { matrix3, translation: DVec3::new(draw(), draw(), draw()) * 1e3 };
-            let instance = WorldInstance { group: 0, map, material: None, motion: NONE, motion_word: NONE };
+            let instance = WorldInstance { group: 0, map, material: None, motion: NONE, motion_word: NONE, receiver: 0 };
             let (low, high) = instance.bounds(&boxes, &[]);
             let corners = boxes.iter().flat_map(|of| {
                 (0..8).map(move |corner| {

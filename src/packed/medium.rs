@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::error::PackError;
 use super::volume::{PackedVolume, PackedVolumes};
 use crate::scene::media;
-use crate::scene::{Filling, LightGroups, MaterialId, Media, Phase, PhaseKind, PhaseLobe};
+use crate::scene::{Filling, LightGroups, MaterialId, Media, Phase, PhaseKind, PhaseLobe, ReceiverId};
 use crate::shader::shared::shared_constants;
 
 /// Media have numbers of 16 bits, from 1.
@@ -75,6 +75,8 @@ pub struct PackedMedia {
     pub volumes: PackedVolumes,
     /// The number of the medium that the camera is within; 0: none.
     pub around_camera: u32,
+    /// By medium, to which receivers its places belong.
+    pub receivers: Vec<ReceiverId>,
 }
 
 impl PackedMedia {
@@ -93,6 +95,7 @@ impl PackedMedia {
         }
         for filling in &media.fillings {
             let medium = packed.medium(filling)?;
+            packed.receivers.push(filling.receiver);
             let is_seen = groups.shows(filling.light_group);
             packed.media.push(if is_seen { medium } else { PackedMedium { emission: [0.0; 3], ..medium } });
         }

@@ -17,6 +17,7 @@ pub mod instance;
 pub mod layers;
 pub mod light;
 pub mod light_cells;
+pub mod links;
 pub mod material;
 pub mod medium;
 pub mod motion;

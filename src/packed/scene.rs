@@ -10,6 +10,7 @@ use super::hierarchy::{Hierarchy, Traversal};
 use super::instance::PackedInstance;
 use super::light::PackedLight;
 use super::light::profile::PackedProfile;
+use super::links::{PackedLinks, split_materials};
 use super::material::PackedMaterials;
 use super::primitive::Primitive;
 use super::texture::PackedTextures;
@@ -39,6 +40,8 @@ pub struct PackedScene {
     pub light_cells: Vec<u32>,
     /// Profiles that lights name.
     pub light_profiles: Vec<PackedProfile>,
+    /// Which lamps light which objects; nothing where each lights all.
+    pub links: PackedLinks,
     pub textures: PackedTextures,
     pub environment: PackedEnvironment,
     /// How shapes move (`PackedMotion::words` of `packed::motion`).
@@ -96,12 +99,19 @@ impl PackedScene {
         let mut textures = PackedTextures::new(scene, materials.textures_mut().chain(of_lights), &grids)?;
         materials.media.volumes.place(&mut textures)?;
         let environment = light::environment(scene, &mut textures)?;
-        let light::SampledLights { mut lights, local_count, nodes, cells, profiles } =
+        let light::SampledLights { mut lights, links, local_count, nodes, cells, profiles } =
             light::collect(scene, &mut world, &environment, &projected_textures, &mut textures)?;
         let places = materials.places(scene);
         world.replace_materials(|material| places[material] as usize);
-        for light in lights.iter_mut().filter(|light| light.is_surface() && light.material != NONE) {
-            light.material = places[light.material as usize];
+        let links = if scene.light_links.is_empty() {
+            PackedLinks::default()
+        } else {
+            let receivers = split_materials(scene, &mut world.primitives, &mut materials);
+            PackedLinks::new(scene, (&materials, &receivers), links, &world.instances)
+        };
+        // Surfaces have the same material as lights.
+        for primitive in world.primitives.iter().filter(|primitive| primitive.light != NONE) {
+            lights[primitive.light as usize].material = primitive.material as u32;
         }
         let (hierarchy, order) = tree::build(&world, traversal, kept)?;
         let packed = Self {
@@ -121,6 +131,7 @@ impl PackedScene {
             light_nodes: nodes,
             light_cells: cells,
             light_profiles: profiles,
+            links,
             textures,
             environment,
             motions: world.motion_words,

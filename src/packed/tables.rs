@@ -21,6 +21,7 @@ pub struct Tables {
     pub first_light_node: u32,
     pub first_light_profile: u32,
     pub first_object: u32,
+    pub first_link: u32,
 }
 
 impl Tables {
@@ -40,6 +41,7 @@ impl Tables {
         tables.first_light_node = tables.append(&packed.light_nodes);
         tables.first_light_profile = tables.append(&packed.light_profiles);
         tables.first_object = tables.append(&packed.objects);
+        tables.first_link = tables.append(&packed.links.words());
         tables
     }
 

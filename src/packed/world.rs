@@ -119,7 +119,7 @@ impl WorldGeometry {
         }
         for entry in &scene.instances {
             let Some(group) = places[entry.group].filter(|_| scene.are_visible(entry)) else { continue };
-            let Instances { material, pivot, .. } = *entry;
+            let Instances { material, pivot, receiver, .. } = *entry;
             let mut packed = [NONE; 2];
             for (number, map) in entry.maps().enumerate() {
                 // About its place each has the same motion, and about another point one of its own.
@@ -130,7 +130,7 @@ impl WorldGeometry {
                     packed = self.add_motion(PackedMotion::of_instance(motion, from_place, scene.camera.shutter));
                 }
                 let [motion, motion_word] = packed;
-                self.instances.push(WorldInstance { group, map, material, motion, motion_word });
+                self.instances.push(WorldInstance { group, map, material, motion, motion_word, receiver });
             }
         }
     }

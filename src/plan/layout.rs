@@ -5,8 +5,8 @@ use super::bindings::Binding;
 use super::parameters::{PassParameters, VertexParameters};
 use super::{counters, estimator, path_state, trace_record};
 use crate::packed::{
-    NONE, View, blend_weight, bvh4, guide, instance, layers, light, light_cells, material, medium, motion, primitive, shape,
-    texture, view, volume,
+    NONE, View, blend_weight, bvh4, guide, instance, layers, light, light_cells, links, material, medium, motion, primitive,
+    shape, texture, view, volume,
 };
 use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
 
@@ -37,6 +37,7 @@ pub fn constants() -> Constants {
         light::constants(),
         light::profile::constants(),
         light_cells::constants(),
+        links::constants(),
         texture::constants(),
     ]
     .concat()

@@ -35,7 +35,8 @@ pub struct Plane {
 /// - the ray's origin, and as bits the pixel within the pass (within the band where pixels are listed) below the sample in the pass, in 24 and 8 bits;
 /// - the ray's direction and its density;
 /// - the throughput, and the scale of roulette;
-/// - the radiance, and as bits the number of vertices at null surfaces below the facing of the surface from which light was last sampled, in 28 and 4 bits;
+/// - the radiance, and as bits the number of vertices at null surfaces below the facing of the surface from which light was last sampled, in 28 and 4 bits; with light links
+///   the surface's receiver between both, in 22, 6 and 4 bits;
 /// - the hit;
 /// - the reference point of the last light sample;
 /// - the media that the ray is in, as bits.

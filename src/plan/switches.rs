@@ -15,7 +15,9 @@ use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
 use crate::sampling::mis::Heuristic;
 use crate::scene::material::{self, ANISOTROPIC, SEPARABLE_MASKING};
-use crate::scene::{ApertureShape, Camera, DistanceSampling, Eyes, Filter, FilterKind, HemisphereSampling, MapRows, Projection};
+use crate::scene::{
+    ApertureShape, Camera, DistanceSampling, Eyes, Filter, FilterKind, HemisphereSampling, LinkMask, MapRows, Projection,
+};
 use crate::scene::{
     BlendMode, Emitters, Estimator, LightSampling, LobeKind, LobeSupport, PhongCosine, PhongHorizon, PhongSampling, PixelSampler,
     RenderSettings, Scene,
@@ -99,6 +101,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
     switches.enable("SUBGROUP_QUEUES", plan.subgroup_queues);
 
     let tables = packed.tables();
+    let links = packed.links.places();
     let albedos = packed.materials.albedos;
     let albedo_word = |place: Option<usize>| tables.first_further + place.unwrap_or(0) as u32;
     let map = packed.environment.map.unwrap_or_default();
@@ -133,6 +136,7 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("FIRST_LIGHT_NODE_WORD", tables.first_light_node),
         ("FIRST_LIGHT_PROFILE_WORD", tables.first_light_profile),
         ("FIRST_LIGHT_WORD", tables.first_light),
+        ("FIRST_LINK_WORD", tables.first_link),
         ("CAMERA_MEDIUM", packed.materials.media.around_camera),
         ("FIRST_MEDIUM_WORD", tables.first_medium),
         ("FIRST_PHASE_WORD", tables.first_phase),
@@ -151,9 +155,14 @@ pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan:
         ("LIGHT_SAMPLES_DEPTH", plan.light_samples_depth),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
+        ("LINK_INSTANCES", links.instances),
+        ("LINK_LIGHTS", links.lights),
+        ("LINK_MEDIA", links.media),
+        ("LINK_RECEIVERS", links.receivers),
         ("LOCAL_LIGHTS", packed.local_lights as u32),
         ("MAX_SAMPLES_PER_PASS", MAX_SAMPLES_PER_PASS),
         ("MOST_FURTHER", packed.materials.materials.iter().map(PackedMaterial::looked_up).max().unwrap_or(0).max(1)),
+        ("OUTSIDE_LINK", packed.links.outside.unwrap_or(LinkMask::ALL).0),
         ("PATH_CAPACITY", plan.path_capacity),
         ("PORTAL_COUNT", packed.lights.iter().filter(|light| light.is(LightKind::Portal)).count() as u32),
         ("PRIMITIVE_WORDS", (3 * packed.primitives.len() as u32).max(1)),
@@ -235,6 +244,7 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     for &kind in LightKind::DELTA {
         switches.enable(kind.number_name(), has(kind));
     }
+    switches.enable("LIGHT_LINKS", !packed.links.is_empty());
     switches.enable("LIGHT_TEXTURES", packed.lights.iter().any(PackedLight::projects_texture));
     switches.enable("LIGHT_PROFILES", packed.lights.iter().any(PackedLight::has_profile));
     switches.enable("SPOT_FALLOFFS", packed.lights.iter().any(|light| light.is(LightKind::Spot) && light.form() != 0));

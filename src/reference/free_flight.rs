@@ -134,6 +134,7 @@ mod tests {
             is_light_sampled: true,
             is_dark: false,
             light_group: 0,
+            receiver: 0,
         }
     }
 

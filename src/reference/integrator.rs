@@ -33,7 +33,7 @@ use crate::sampling::hash::mix;
 use crate::sampling::mis::Heuristic;
 use crate::sampling::sampler::uniform;
 use crate::sampling::{Dimension, Guide, LightSampleContext, MediumDimension, PathSampler, VertexDimension};
-use crate::scene::{Emitters, Estimator, Filling, Media, MediumGrids, Scene};
+use crate::scene::{Emitters, Estimator, Filling, LinkMask, Media, MediumGrids, ReceiverId, SEES_ALL, Scene};
 use crate::spectrum::Spectrum;
 
 /// A scene made ready for tracing paths.
@@ -51,6 +51,9 @@ pub struct Integrator {
     hidden: Vec<bool>,
     media: Media,
     layers: LayersOfMaterials,
+    /// Receivers of all shapes, and behind them of all instances; empty where every lamp lights everything.
+    receivers: Vec<ReceiverId>,
+    link_of_outside: LinkMask,
     /// From where light arrives, where that was learned.
     guide: Option<Arc<Guide>>,
 }
@@ -74,6 +77,8 @@ struct Path {
     /// against each other by the densities that they have there.
     previous: Density,
     reference: LightSampleContext,
+    /// The receiver of that vertex, which only lamps light that are linked to it.
+    receiver: ReceiverId,
     /// The media that the ray is in.
     stack: MediumStack,
     /// Edges of the path up to the end of the ray: the camera's has 1.
@@ -110,6 +115,7 @@ impl Integrator {
             eta_scale: 1.0,
             expectation: Expectation::default(),
             previous: Density::Delta,
+            receiver: SEES_ALL,
             stack: MediumStack::around(self.media.around_camera),
             depth: 1,
             vertex: 0,
@@ -280,7 +286,7 @@ impl Integrator {
         let (Some(filling), true) = (filling, path.depth != self.scene.render.max_depth) else { return false };
         let scattering = Scattering { phase: &filling.phase, wo, is_dark: filling.is_dark };
         let scatterer = Scatterer::Medium(GuidedPhase::new(self.guide(), position, scattering));
-        self.scatter(path, &Interaction::medium(position, wo), &scatterer, sampler, visitor)
+        self.scatter(path, &Interaction::medium(position, wo, filling.receiver), &scatterer, sampler, visitor)
     }
 
     /// Extends a path where it is scattered: samples lights, and chooses the next ray. False where the path ends.
@@ -295,6 +301,8 @@ impl Integrator {
         let vertex = path.vertex;
         let random = |dimension| sampler.uniform(Dimension::vertex(vertex, dimension));
         let last_edge = path.depth == self.scene.render.max_depth;
+        let receiver = interaction.receiver(&self.receivers);
+        visitor.receiver(receiver);
         // Cells of lights are told apart by this normal.
         let mut reference_normal = interaction.point().normal_towards(scatterer.wo());
         visitor.round_direction(&mut reference_normal);
@@ -311,7 +319,7 @@ impl Integrator {
         if V::LIGHTS && samples_light && choice != Some(Choice::Path) {
             for number in 0..self.scene.render.light_samples_at(path.depth) {
                 let bits = sampler.light_bits(vertex, path.depth, number);
-                self.add_direct_light(path, (interaction, reference_normal), scatterer, bits, visitor);
+                self.add_direct_light(path, (interaction, reference_normal, receiver), scatterer, bits, visitor);
             }
         }
         if choice == Some(Choice::Light) {
@@ -347,6 +355,7 @@ impl Integrator {
             return true;
         }
         path.previous = drawn.density;
+        path.receiver = receiver;
         path.reference = LightSampleContext::new(path.ray.origin, reference_normal);
 
         // Let Russian roulette end the path
@@ -378,7 +387,8 @@ impl Integrator {
 
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_escaped_radiance<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
-        if !self.lights.shows_outside() || (path.depth == 1 && self.scene.render.emitters == Emitters::Hidden) {
+        let is_hidden = path.depth == 1 && self.scene.render.emitters == Emitters::Hidden;
+        if !self.lights.shows_outside() || is_hidden || !self.link_of_outside.lights(path.receiver) {
             return visitor.escaped(Spectrum::BLACK, 1.0, Spectrum::BLACK);
         }
         let radiance = self.lights.outside().radiance(path.ray.direction);
@@ -392,7 +402,7 @@ impl Integrator {
     /// Emission found by following the path, shared with the light sample of the surface before.
     fn add_emitted_radiance<V: PathVisitor>(&self, path: &mut Path, surface: &Surface, wo: DVec3, visitor: &mut V) {
         let radiance = emitted(&self.scene, surface, wo);
-        if radiance.is_black() {
+        if radiance.is_black() || !self.scene.light_links.of_material(surface.owner.material).lights(path.receiver) {
             return;
         }
         let weight = self.emission_weight(path, || self.lights.pdf((&self.world, &path.time), path.reference, surface));
@@ -428,7 +438,7 @@ impl Integrator {
     fn add_direct_light<V: PathVisitor>(
         &self,
         path: &mut Path,
-        (interaction, reference_normal): (&Interaction<'_>, DVec3),
+        (interaction, reference_normal, receiver): (&Interaction<'_>, DVec3, ReceiverId),
         scatterer: &Scatterer<'_>,
         [choice, u, v]: [u32; 3],
         visitor: &mut V,
@@ -438,7 +448,7 @@ impl Integrator {
         let point = interaction.point();
         let mut origin = point.leave_towards(scatterer.wo());
         visitor.round_point(&mut origin, point.magnitude());
-        let reference = LightSampleContext::new(origin, reference_normal);
+        let reference = LightSampleContext::new(origin, reference_normal).of_receiver(receiver);
         let moment = (&self.world, &path.time);
         let numbers = visitor.round_light_numbers([u, v], || self.lights.magnifies(moment, reference, choice));
         let Some(light) = self.lights.sample(&self.scene, moment, reference, choice, numbers) else { return };

@@ -7,15 +7,15 @@ use super::guided::GuidedPhase;
 use super::intersect::{Surface, SurfacePoint};
 use super::layered::SurfaceScatterer;
 use super::medium::MediumStack;
-use crate::scene::Media;
+use crate::scene::{Media, ReceiverId};
 
 /// The place where a path scatters.
 #[derive(Debug, Clone, Copy)]
 pub enum Interaction<'a> {
     /// On a surface; whether wo is on its front.
     Surface { surface: &'a Surface, front: bool },
-    /// Within a medium.
-    Medium(SurfacePoint),
+    /// Within a medium, which belongs to a receiver.
+    Medium(SurfacePoint, ReceiverId),
 }
 
 impl<'a> Interaction<'a> {
@@ -24,14 +24,22 @@ impl<'a> Interaction<'a> {
     }
 
     /// A place within a medium, at which a path arrives along −wo. As a point of a surface it faces wo, and nothing keeps rays from leaving it.
-    pub fn medium(position: DVec3, wo: DVec3) -> Self {
-        Self::Medium(SurfacePoint { position, normal: wo, error: 0.0 })
+    pub fn medium(position: DVec3, wo: DVec3, receiver: ReceiverId) -> Self {
+        Self::Medium(SurfacePoint { position, normal: wo, error: 0.0 }, receiver)
     }
 
     pub fn point(&self) -> &SurfacePoint {
         match self {
             Self::Surface { surface, .. } => &surface.point,
-            Self::Medium(point) => point,
+            Self::Medium(point, _) => point,
+        }
+    }
+
+    /// The receiver that it belongs to, by those of all shapes and instances; 0 where there are none of them.
+    pub fn receiver(&self, of_shapes: &[ReceiverId]) -> ReceiverId {
+        match self {
+            Self::Surface { surface, .. } => of_shapes.get(surface.owner.shape).copied().unwrap_or(0),
+            Self::Medium(_, receiver) => *receiver,
         }
     }
 
@@ -44,7 +52,7 @@ impl<'a> Interaction<'a> {
     pub fn media_towards(&self, stack: MediumStack, media: &Media, direction: DVec3) -> MediumStack {
         match self {
             Self::Surface { surface, front } => stack.towards(media, surface, *front, direction),
-            Self::Medium(_) => stack,
+            Self::Medium(..) => stack,
         }
     }
 }

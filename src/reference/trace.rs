@@ -6,7 +6,7 @@ use super::bsdf::{BsdfSample, View};
 use super::intersect::{Hit, Owner, PathTime, Ray, Surface, SurfacePoint, World};
 use super::lights::{LightSample, Lights};
 use super::scatterer::Scatterer;
-use crate::scene::MaterialId;
+use crate::scene::{MaterialId, ReceiverId};
 use crate::spectrum::Spectrum;
 
 /// Next event estimation at one surface.
@@ -43,6 +43,8 @@ pub trait PathVisitor {
     /// The direction of the light sample or of the path that is told of next would have so many times its
     /// density without a guide.
     fn unguided(&mut self, _times: f64) {}
+    /// Light is about to be sampled at the place that was told of last, which belongs to this receiver.
+    fn receiver(&mut self, _receiver: ReceiverId) {}
     /// The surface scatters, seen like this.
     fn view(&mut self, _view: &View) {}
     /// A light was sampled and could contribute.

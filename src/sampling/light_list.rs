@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::light_sampler::{LightGroup, LightSampler};
-use crate::scene::{Estimator, Light, LightStrength, Scene};
+use crate::scene::{Estimator, Light, LightStrength, LinkMask, Scene};
 
 /// A light that is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +43,19 @@ pub struct OutsideLight {
 pub struct LightList {
     pub sources: Vec<LightSource>,
     pub sampler: LightSampler,
+}
+
+/// The masks of what each light of a list lights, in its order; empty where each lights all.
+pub fn links_of(scene: &Scene, sources: &[LightSource], surfaces: &[EmittingSurface]) -> Vec<LinkMask> {
+    if scene.light_links.is_empty() {
+        return Vec::new();
+    }
+    let link = |source: &LightSource| match *source {
+        LightSource::Surface(number) => scene.light_links.of_material(surfaces[number].material),
+        LightSource::Delta(number) => scene.light_links.of_light(number),
+        LightSource::Environment | LightSource::Portal(_) => scene.link_of_outside(),
+    };
+    sources.iter().map(link).collect()
 }
 
 impl LightList {

@@ -57,6 +57,7 @@ shader_files![
     "shading/light/environment_sample.wgsl",
     "shading/light/hidden_emitters.wgsl",
     "shading/light/light_sample.wgsl",
+    "shading/light/links.wgsl",
     "shading/light/place.wgsl",
     "shading/light/portal.wgsl",
     "shading/light/profile.wgsl",

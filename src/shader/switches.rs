@@ -286,6 +286,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("LIGHTS_BY_PICTURE")
         .requires(&["LIGHTS", "TEXELS", "TEXTURES", "VARYING_LIGHTS"])
         .one_of(&["AREA_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_PICTURE"]),
+    // Some lamp lights some objects and not others.
+    switch("LIGHT_LINKS"),
     // The intensity of some delta light differs from direction to direction by a profile.
     switch("LIGHT_PROFILES").requires(&["DELTA_LIGHTS", "TEXELS"]).one_of(&["POINT_LIGHT", "SPOT_LIGHT"]),
     // Some delta light projects a texture.

@@ -59,6 +59,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("mist", MeasuredShare { matching: 175_652, paths: 176_128 }),
     ("bonfire", MeasuredShare { matching: 196_465, paths: 196_608 }),
     ("model-town", MeasuredShare { matching: 196_519, paths: 196_608 }),
+    ("duet", MeasuredShare { matching: 147_357, paths: 147_456 }),
     ("furnace-lambert", MeasuredShare { matching: 65_536, paths: 65_536 }),
     ("furnace-box", MeasuredShare { matching: 65_451, paths: 65_536 }),
     ("furnace-glass", MeasuredShare { matching: 65_536, paths: 65_536 }),

@@ -147,6 +147,44 @@ class View(PageTest):
         self.wait("() => wanted.includes('//') && !isStale")
         self.assertTrue((self.saved_after_drawing() == radiance).all())
 
+    def test_light_groups_are_weighed_anew_by_sliders(self):
+        lamp = '[[light]]\ntype = "point"\nposition = [2, 2, 3]\nintensity = [9, 5, 2]\nlight_group = "key"\n'
+        self.scene.write_text(SCENE + lamp)
+        self.view("--aov", "groups")
+        self.wait_until_finished()
+        plain = self.saved_png()
+        self.assertTrue(self.page.locator("#groups").is_visible())
+        self.assertEqual(self.text("regroup"), "as rendered")
+        # By the keyboard, under the name that a screen reader says.
+        slider = self.page.get_by_label("strength of the light group key")
+        slider.focus()
+        for _ in range(20):
+            self.page.keyboard.press("ArrowRight")
+        self.page.get_by_label("tint of the light group rest").fill("#808040")
+        self.wait("() => groups.sum !== null && !isStale")
+        self.assertEqual(self.text("regroup"), "gpt regroup --group key=2 --group rest=1,#808040")
+        self.assertEqual(slider.get_attribute("aria-valuetext"), "2.00 times as bright")
+        self.keep("groups")
+        regrouped = self.saved_after_drawing()
+        flags = self.text("regroup").split()[2:]
+        command = [os.environ["GPT"], "regroup", self.folder / "a.exr", *flags, "-o", self.folder / "b.png"]
+        subprocess.run(command, check=True, capture_output=True)
+        self.assertLessEqual(np.abs(regrouped - decode((self.folder / "b.png").read_bytes())).max(), 1)
+        # The control: the picture as rendered is another, and the button leads back to it.
+        self.assertGreater(np.abs(regrouped - plain).max(), 20)
+        self.page.click("#plain")
+        self.wait("() => groups.sum === null && !isStale")
+        self.assertTrue((self.saved_after_drawing() == plain).all())
+        self.assertEqual(self.troubles, [])
+        self.page.set_viewport_size(NARROW)
+        self.readout()
+        self.assertLessEqual(self.page.evaluate("() => document.documentElement.scrollWidth - window.innerWidth"), 0)
+
+    def test_a_render_without_groups_has_no_sliders(self):
+        self.view()
+        self.wait_until_finished()
+        self.assertFalse(self.page.locator("#groups").is_visible())
+
     def test_the_radiance_is_saved_as_openexr(self):
         self.view()
         self.wait_until_finished()

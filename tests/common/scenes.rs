@@ -6,7 +6,7 @@ pub const ENOUGH: [&str; 5] = ["examples", "paints", "terrace", "bazaar", "arbou
 
 /// Switches of which other tests of agreement have scenes: in `tests/gpu/agreement`, and `GUIDE` in
 /// `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 37] = [
+pub const ELSEWHERE: [&str; 38] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
@@ -21,6 +21,7 @@ pub const ELSEWHERE: [&str; 37] = [
     "INSTANCES",
     "LIGHTS_BY_PICTURE",
     "LIGHT_CELLS",
+    "LIGHT_LINKS",
     "LIGHT_TEXTURES",
     "MEDIUM_EMISSION",
     "MEDIUM_GRIDS",

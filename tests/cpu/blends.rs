@@ -96,7 +96,7 @@ fn material(scene: &mut Scene, kind: MaterialKind, emission: Option<Emission>) -
 
 fn shape(scene: &mut Scene, geometry: Geometry, material: MaterialId) {
     let (label, transform) = (scene.shapes.len().to_string(), Transform::default());
-    scene.shapes.push(Shape { label, geometry, material, transform, motion: None, portal: false });
+    scene.shapes.push(Shape { label, geometry, material, transform, motion: None, portal: false, receiver: 0 });
 }
 
 fn ball(scene: &mut Scene, x: f64, material: MaterialId) {

@@ -21,6 +21,7 @@ mod imports;
 mod instances;
 mod learn;
 mod light_groups;
+mod light_links;
 mod light_strategies;
 mod many_parts;
 mod media;

@@ -49,6 +49,7 @@ fn a_scene_that_is_not_valid_is_refused_by_the_device() {
         transform: Transform::default(),
         motion: None,
         portal: false,
+        receiver: 0,
     });
     match GpuRenderer::on(device, &scene, &PlanOptions::default()).map(drop) {
         Err(RenderError::InvalidScene(invalid)) => assert_eq!(invalid.to_string(), "a disk: there is no material 99"),

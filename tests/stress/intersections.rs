@@ -64,7 +64,7 @@ fn add_mesh(scene: &mut Scene, positions: Vec<Vec3>, faces: Vec<[u32; 3]>) {
     let geometry = Geometry::Mesh(Arc::new(mesh));
     let material = scene.shapes[0].material;
     let transform = Transform::default();
-    scene.shapes[0] = Shape { label: "mesh".to_owned(), geometry, material, transform, motion: None, portal: false };
+    scene.shapes[0] = Shape { label: "mesh".to_owned(), geometry, material, transform, motion: None, portal: false, receiver: 0 };
 }
 
 /// A scene of one shape that the caller replaces.

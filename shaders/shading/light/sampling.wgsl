@@ -6,6 +6,9 @@
 #import shading/light/choice.wgsl
 #import shading/light/delta_lights.wgsl
 #import shading/light/light_sample.wgsl
+#if LIGHT_LINKS
+#import shading/light/links.wgsl
+#endif
 #import shading/light/outside.wgsl
 #import shading/light/portal.wgsl
 #import shading/light/record.wgsl
@@ -28,13 +31,24 @@ fn environment_pdf_solid_angle(ray: Ray, context: LightContext) -> f32 {
 }
 
 // Samples a light at a point of a surface, which faces the way that `facing` says (`facing_of`).
-fn sample_light(reference: vec3<f32>, facing: u32, bits: vec4<u32>) -> LightSample {
+fn sample_light(
+    reference: vec3<f32>, facing: u32, bits: vec4<u32>
+#if LIGHT_LINKS
+    // The point is one of this receiver.
+    , receiver: u32
+#endif
+) -> LightSample {
     let context = light_context(reference, facing);
     let choice = choose_light(context, bits.x);
     let light = choice.light;
     if choice.pmf == 0.0 || is_forgotten(light) {
         return no_light();
     }
+#if LIGHT_LINKS
+    if !mask_lights(link_of_light(light), receiver) {
+        return no_light();
+    }
+#endif
     let kind_flags = bitcast<u32>(light_word(light, 0u).x);
     let kind = kind_flags & 255u;
     if HAS_SPHERE_LIGHTS && kind == KIND_SPHERE {

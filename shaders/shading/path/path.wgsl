@@ -12,6 +12,9 @@
 #import shading/light/hidden_emitters.wgsl
 #import shading/path/layer.wgsl
 #import shading/light/light_sample.wgsl
+#if LIGHT_LINKS
+#import shading/light/links.wgsl
+#endif
 #import shading/path/mis.wgsl
 #import shading/medium/medium.wgsl
 #import shading/medium/stack.wgsl
@@ -43,6 +46,11 @@ fn escaped_radiance(path: Path, depth: u32) -> Spectrum {
     if !HAS_ENVIRONMENT || HAS_OUTSIDE_UNSEEN || (HAS_HIDDEN_EMITTERS && depth == 1u) {
         return BLACK;
     }
+#if LIGHT_LINKS
+    if !mask_lights(OUTSIDE_LINK, path.receiver) {
+        return BLACK;
+    }
+#endif
     var radiance = path.throughput * outside_radiance(path.ray.direction);
     var weight = 1.0;
     // After the camera or a delta lobe no light sample could have found it.
@@ -61,6 +69,11 @@ fn escaped_radiance(path: Path, depth: u32) -> Spectrum {
 fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> Spectrum {
     var radiance = BLACK;
     if HAS_EMISSION {
+#if LIGHT_LINKS
+        if !mask_lights(link_of_material(surface.material), path.receiver) {
+            return radiance;
+        }
+#endif
         let emitted = material_emission(surface.material, seen_along(surface, -path.ray.direction), surface.uv);
         if max_component(emitted) > 0.0 {
             var weight = 1.0;
@@ -132,7 +145,12 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
 fn further_shadow_ray(shaded: ShadedVertex, number: u32) -> ShadowRay {
     let depth = depth_at(shaded.path, shaded.vertex);
     let light_bits = further_light_bits(shaded.path.pixel, shaded.path.sample_in_pass, shaded.vertex, depth, number);
-    let light = sample_light(shading_point(shaded.surface), facing_of(shaded.surface), light_bits);
+    let light = sample_light(
+        shading_point(shaded.surface), facing_of(shaded.surface), light_bits
+#if LIGHT_LINKS
+        , shaded.surface.receiver
+#endif
+    );
     let value = evaluate_scatterer(shaded.scatterer, shaded.surface, -shaded.path.ray.direction, light.wi, key_of_light(light_bits));
     return shadow_ray(shaded.path, shaded.surface, depth, light, light_bits, value);
 }
@@ -172,6 +190,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         phase = arrival.phase;
         if phase != 0u {
             surface = medium_surface(incoming.ray, arrival.distance);
+#if LIGHT_LINKS
+            surface.receiver = receiver_of_medium(innermost(incoming.media));
+#endif
         } else if has_left {
             shading.radiance += shading_outside(incoming, depth).radiance;
             return shading;
@@ -224,7 +245,12 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     }
     var light = no_light();
     if samples_light {
-        light = sample_light(shading_point(surface), facing_of(surface), random);
+        light = sample_light(
+            shading_point(surface), facing_of(surface), random
+#if LIGHT_LINKS
+            , surface.receiver
+#endif
+        );
     }
     let scattering = scatter_by(
         scatterer, surface, wo, samples_light, light.wi, key_of_light(random), uniform_float(random.w), uniform_float(more_random.x),

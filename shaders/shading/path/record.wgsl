@@ -1,4 +1,5 @@
 // A path on its way, and the outcome of one of its vertices.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/path/scatterer.wgsl
 #import shading/material/scattering.wgsl
@@ -24,6 +25,10 @@ struct Path {
     reference_facing: u32,
     // With TRANSPARENT_SHADOWS, the reference point of the last light sample: the origin of the ray that went on through the null surfaces last met.
     reference_point: vec3<f32>,
+#if LIGHT_LINKS
+    // The receiver of the surface or place from which light was last sampled, which only lamps light that are linked to it.
+    receiver: u32,
+#endif
 #if MEDIA
     // The media around the ray.
     media: MediumStack,
@@ -76,6 +81,9 @@ fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
     path.pixel = pixel;
     path.sample_in_pass = sample_in_pass;
     path.reference_point = ray.origin;
+#if LIGHT_LINKS
+    path.receiver = SEES_ALL_LAMPS;
+#endif
     if HAS_MEDIA {
         path.media = around_camera();
     }
@@ -166,6 +174,9 @@ fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput
     if HAS_LIGHT_CELLS {
         path.reference_facing = select(facing_of(surface), incoming.reference_facing, drawn.is_null);
     }
+#if LIGHT_LINKS
+    path.receiver = select(surface.receiver, incoming.receiver, drawn.is_null);
+#endif
     if HAS_TRANSPARENT_SHADOWS {
         // Through a null surface goes the ray that was drawn before.
         path.pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);

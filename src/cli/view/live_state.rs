@@ -79,6 +79,10 @@ struct LiveContent {
     began: Option<Instant>,
     picture: Arc<LivePicture>,
     layers: Vec<LayerImage>,
+    /// The names of those that are light groups.
+    groups: Vec<String>,
+    /// How often layers were put there.
+    layered: u64,
     /// When it was last asked for; who receives every picture counts as always asking.
     asked: Option<Instant>,
     receivers: usize,
@@ -102,6 +106,10 @@ pub struct View {
     pub status: Status,
     pub picture: Arc<LivePicture>,
     pub layers: Vec<LayerImage>,
+    /// The names of those that are light groups.
+    pub groups: Vec<String>,
+    /// How often layers were put there.
+    pub layered: u64,
     /// There will be nothing newer.
     pub is_closed: bool,
 }
@@ -138,6 +146,7 @@ impl LiveState {
             shown.status = Status { scene: scene.to_owned(), round, device, exposure, tonemap, ..Status::default() };
             (shown.began, shown.due) = (Some(Instant::now()), None);
             shown.layers.clear();
+            shown.groups.clear();
         });
     }
 
@@ -146,9 +155,9 @@ impl LiveState {
         self.change(|shown| device.clone_into(&mut shown.status.device));
     }
 
-    /// Layers beside the picture are there.
-    pub fn layers(&self, layers: Vec<LayerImage>) {
-        self.change(|shown| shown.layers = layers);
+    /// Layers beside the picture are there, among them those of light groups of these names.
+    pub fn layers(&self, layers: Vec<LayerImage>, groups: Vec<String>) {
+        self.change(|shown| (shown.layers, shown.groups, shown.layered) = (layers, groups, shown.layered + 1));
     }
 
     pub fn progress(&self, phase: Phase, done: u64, total: u64) {
@@ -224,8 +233,8 @@ impl LiveState {
         if shown.began.is_some() {
             status.seconds = seconds_since(shown.began);
         }
-        let (picture, layers) = (shown.picture.clone(), shown.layers.clone());
-        View { version: shown.version, status, picture, layers, is_closed: shown.is_closed }
+        let (picture, layers, groups) = (shown.picture.clone(), shown.layers.clone(), shown.groups.clone());
+        View { version: shown.version, status, picture, layers, groups, layered: shown.layered, is_closed: shown.is_closed }
     }
 
     /// There will be nothing new any more.

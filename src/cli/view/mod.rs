@@ -143,10 +143,10 @@ impl Live {
         }
     }
 
-    /// Layers beside the picture are there.
-    pub fn layers(&self, channels: &[LayerChannel], size: [u32; 2]) {
+    /// Layers beside the picture are there, among them those of light groups of these names.
+    pub fn layers(&self, channels: &[LayerChannel], size: [u32; 2], groups: Vec<String>) {
         if let Some(state) = &self.state {
-            state.layers(layers::layer_images(channels, size));
+            state.layers(layers::layer_images(channels, size), groups);
         }
     }
 

@@ -27,6 +27,8 @@ const PAGE: &str = concat!(
     "<script>\n",
     include_str!("page/display.js"),
     include_str!("page/page.js"),
+    include_str!("page/groups.js"),
+    "follow();\n",
     "</script>\n"
 );
 
@@ -263,6 +265,10 @@ struct State<'a> {
     /// The relative mean squared error, were all samples independent.
     noise: Option<f64>,
     layers: Vec<&'a str>,
+    /// The layers that are light groups and add up to the picture.
+    groups: &'a [String],
+    /// Counts how often there were other layers.
+    layered: u64,
 }
 
 impl<'a> State<'a> {
@@ -277,6 +283,8 @@ impl<'a> State<'a> {
             samples: picture.sample_range(),
             noise: picture.expected_error(),
             layers: view.layers.iter().map(|layer| layer.name.as_str()).collect(),
+            groups: &view.groups,
+            layered: view.layered,
         }
     }
 }

@@ -52,7 +52,15 @@ fn scene(size: [u32; 2]) -> Scene {
         [(floor, 0), (ball(-2.2, 1.0, 1.0), 0), (ball(0.0, 1.0, 1.0), 1), (ball(2.2, 1.0, 1.0), 2), (ball(1.0, 4.0, 0.5), 3)];
     for (geometry, material) in shapes {
         let transform = Transform::default();
-        scene.shapes.push(Shape { label: "shape".into(), geometry, material, transform, motion: None, portal: false });
+        scene.shapes.push(Shape {
+            label: "shape".into(),
+            geometry,
+            material,
+            transform,
+            motion: None,
+            portal: false,
+            receiver: 0,
+        });
     }
     scene.lights.push(Light::Point(PointLight {
         position: DVec3::new(-3.0, 4.0, 2.0),

@@ -16,12 +16,12 @@ use super::primitive::WorldPrimitive;
 use super::texture::{self, PackedTextures};
 use super::world::WorldGeometry;
 use crate::emission_map::{EmissionMaps, Unrolled};
-use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
+use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight, links_of};
 use crate::sampling::light_strategy::LightStrategy;
 use crate::sampling::light_tree::{Emitter, LightNode};
 use crate::sampling::{AliasTable, HierarchicalWarp, LightCells, LightTree};
 use crate::scene::light::light_table;
-use crate::scene::{Estimator, Light, Scene};
+use crate::scene::{Estimator, Light, LinkMask, Scene};
 use crate::spectrum::Spectrum;
 use profile::{PackedProfile, Profiles};
 use record::PORTAL_SHIFT;
@@ -55,6 +55,8 @@ pub fn environment(scene: &Scene, textures: &mut PackedTextures) -> Result<Packe
 #[derive(Debug, Default)]
 pub struct SampledLights {
     pub lights: Vec<PackedLight>,
+    /// By light, which receivers it lights; empty where each lights all.
+    pub links: Vec<LinkMask>,
     /// How many of them stand inside the scene: the first.
     pub local_count: usize,
     /// Nodes of the tree by which those are chosen; empty where they are chosen by power.
@@ -143,6 +145,7 @@ pub fn collect(
         LightSource::Portal(number) => portal_light(&world.portals[number]),
     };
     let mut lights: Vec<PackedLight> = sources.iter().filter_map(packed).collect();
+    let links = links_of(scene, &sources, &surfaces);
     let table = sampler.table();
     for (index, light) in lights.iter_mut().enumerate() {
         light.alias = table.alias[index];
@@ -151,10 +154,10 @@ pub fn collect(
     }
     let local_count = sampler.local_count();
     match LightStrategy::of(scene.render.light_choice, &sampler) {
-        LightStrategy::Power => return Ok(SampledLights { lights, local_count, profiles, ..SampledLights::default() }),
+        LightStrategy::Power => return Ok(SampledLights { lights, links, local_count, profiles, ..SampledLights::default() }),
         LightStrategy::Cells => {
             let cells = LightCells::default().words().to_vec();
-            return Ok(SampledLights { lights, local_count, cells, profiles, ..SampledLights::default() });
+            return Ok(SampledLights { lights, links, local_count, cells, profiles, ..SampledLights::default() });
         }
         LightStrategy::Tree => choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity()),
     }
@@ -168,7 +171,7 @@ pub fn collect(
     for (light, trail) in lights.iter_mut().zip(trails) {
         light.trail = trail;
     }
-    Ok(SampledLights { lights, local_count, nodes, profiles, ..SampledLights::default() })
+    Ok(SampledLights { lights, links, local_count, nodes, profiles, ..SampledLights::default() })
 }
 
 /// Lets lights at infinity, behind `local_count` others, be chosen among themselves.

@@ -43,6 +43,8 @@ impl PackedScene {
         self.check_materials()?;
         self.check_textures()?;
         self.check_lights()?;
+        let media = self.materials.media.media.len();
+        self.links.check([self.materials.materials.len(), self.lights.len(), self.instances.len(), media])?;
         self.check_environment()
     }
 

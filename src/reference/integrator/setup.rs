@@ -35,7 +35,9 @@ impl Integrator {
         let hidden = scene.materials_that(|material| hides && material.emission.as_ref().is_some_and(is_bright));
         let media = Media::of(scene);
         let layers = LayersOfMaterials::new(scene);
-        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, media, layers, guide: None })
+        let (receivers, link_of_outside) = (scene.receivers(), scene.link_of_outside());
+        let scene = scene.clone();
+        Ok(Self { scene, center, world, lights, camera, moves, hidden, media, layers, receivers, link_of_outside, guide: None })
     }
 
     /// Sees light of one group alone, where the scene says so ([`Scene::in_light_of`]). All that was learned and made ready of all light stays: paths and

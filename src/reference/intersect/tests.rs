@@ -20,6 +20,7 @@ fn world(shapes: Vec<(Geometry, Vec<TransformStep>)>) -> World {
         transform: Transform { steps },
         motion: None,
         portal: false,
+        receiver: 0,
     };
     let shapes = shapes.into_iter().map(shape).collect();
     World::new(&Scene { materials: kinds.map(material).to_vec(), shapes, ..Scene::default() }).expect("the scene is sound")

@@ -25,13 +25,13 @@ use super::intersect::{Outline, Owner, PathTime, PreparedRay, Primitive, Ray, Su
 use super::work;
 use crate::emission_map::{EmissionMaps, EmitterPart, Unrolled};
 use crate::sampling::light_cells::{LightCellChoice, LightCells, LightSampleContext};
-use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight};
+use crate::sampling::light_list::{EmittingSurface, LightList, LightSource, OutsideLight, links_of};
 use crate::sampling::light_strategy::LightStrategy;
 use crate::sampling::light_tree::Emitter;
 use crate::sampling::sampler::uniform;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightTree};
 use crate::scene::light::light_table;
-use crate::scene::{Light, LightSampling, MaterialId, MaterialKind, Scene};
+use crate::scene::{Light, LightSampling, LinkMask, MaterialId, MaterialKind, ReceiverId, Scene};
 use crate::spectrum::Spectrum;
 use delta::DeltaLight;
 pub use outside::Outside;
@@ -96,6 +96,8 @@ pub struct Lights {
     delta_numbers: Vec<Option<usize>>,
     /// By light: it is a delta light that is not to be seen.
     is_hidden: Vec<bool>,
+    /// By light, which receivers it lights; empty where each lights all.
+    links: Vec<LinkMask>,
     /// Index of the environment among the lights, where it is one.
     environment_light: Option<usize>,
     /// Index of the first portal among the lights.
@@ -170,6 +172,7 @@ impl Lights {
         };
         let delta_numbers: Vec<Option<usize>> = sources.iter().map(delta_number).collect();
         let is_hidden = vec![false; delta_numbers.len()];
+        let links = links_of(scene, &sources, &surfaces);
         let local_count = sampler.local_count();
         let environment_light = sources.iter().position(|source| *source == LightSource::Environment);
         let first_portal = sources.iter().position(|source| matches!(source, LightSource::Portal(_))).unwrap_or(sources.len());
@@ -192,6 +195,7 @@ impl Lights {
             shows_outside: true,
             delta_numbers,
             is_hidden,
+            links,
             environment_light,
             first_portal,
             lets_through: scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass)),
@@ -348,6 +352,9 @@ impl Lights {
         (light, probability): (usize, f64),
         [u, v]: [u32; 2],
     ) -> Option<LightSample> {
+        if !self.are_linked(light, from.receiver) {
+            return None;
+        }
         let reference = from.point;
         let (u1, u2) = (uniform(u), uniform(v));
         let sampled = &self.lights[light];
@@ -400,6 +407,11 @@ impl Lights {
                 if pdf > 0.0 { sample(wi, f64::INFINITY, self.outside.radiance(wi), pdf, None) } else { None }
             }
         }
+    }
+
+    /// A light lights a receiver.
+    fn are_linked(&self, light: usize, receiver: ReceiverId) -> bool {
+        self.links.get(light).is_none_or(|mask| mask.lights(receiver))
     }
 
     /// The place of the light that is chosen at a point, by bits as [`Lights::sample`] has them: a point of its surface, the centre of a sphere, or

@@ -36,6 +36,7 @@ fn glowing(shapes: Vec<Geometry>) -> (Scene, World) {
         transform: Transform::default(),
         motion: None,
         portal: false,
+        receiver: 0,
     };
     let scene = Scene {
         materials: vec![material],

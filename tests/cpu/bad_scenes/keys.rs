@@ -27,7 +27,7 @@ fn unknown_keys_types_and_names_are_answered_with_the_valid_choices() {
             "reflectance = 0.5",
             "reflectence = 0.5",
             "test.toml:13:1: material[0].reflectence: unknown key `reflectence` [did you mean `reflectance`? valid choices: name, \
-             reflectance, normal_map, normal_scale, bump_map, bump_scale, normal_shadowing, normal_mirroring, emission, emission_two_sided, opacity, interior, light_group, keyframes, interpolation, two_sided]",
+             reflectance, normal_map, normal_scale, bump_map, bump_scale, normal_shadowing, normal_mirroring, emission, emission_two_sided, opacity, interior, light_group, lights_only, lights_all_but, keyframes, interpolation, two_sided]",
         ),
         ("type = \"diffuse\"", "type = \"diffusse\"", &of_materials),
         ("type = \"sphere\"", "", &of_shapes),

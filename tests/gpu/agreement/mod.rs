@@ -7,6 +7,7 @@ mod flat_lights;
 mod instances;
 mod layers;
 mod light_groups;
+mod light_links;
 mod light_samples;
 mod lights;
 mod materials;

@@ -58,7 +58,7 @@ pub fn glass(scene: &mut Scene, ior: f64) -> MaterialId {
 pub fn shape(scene: &mut Scene, geometry: Geometry, material: MaterialId) {
     let label = format!("shape {}", scene.shapes.len());
     let transform = Transform::default();
-    scene.shapes.push(Shape { label, geometry, material, transform, motion: None, portal: false });
+    scene.shapes.push(Shape { label, geometry, material, transform, motion: None, portal: false, receiver: 0 });
 }
 
 pub fn sphere(center: DVec3, radius: f64) -> Geometry {

@@ -126,6 +126,29 @@ fn estimators_agree_on_features_at_random() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// Emission that a path finds from a vertex, and light that is sampled there, count where the lamp and the vertex's object are linked.
+#[test]
+#[ignore = "slow"]
+fn estimators_agree_where_lamps_are_linked() {
+    let everything = in_full("estimators in 15 scenes of light links instead of 5");
+    let taken = |(number, scene): (usize, _)| (everything || number % 3 == 0).then_some(scene);
+    let scenes: Vec<_> = scenes::linked().enumerate().filter_map(taken).collect();
+    let found = disagreements(&scenes);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// The control: paths alone in the scene without links, as of an estimator that asks no link of what paths find, are noticed beside light samples with them.
+#[test]
+fn an_estimator_that_forgets_links_is_noticed() {
+    for (seed, (name, features)) in (1..).zip(scenes::linked()) {
+        let text = features.scene();
+        let unlinked = Features { links: scenes::Links { lamp: "", glow: "", ..features.links }, ..features }.scene();
+        let ways = [by_reference(&text, Estimator::Nee, seed), by_reference(&unlinked, Estimator::Bsdf, seed + 100)];
+        let (p, pair) = worst_pair(&ways);
+        assert!(p < sidak(LEVEL, PAIRS), "{name}: {pair}");
+    }
+}
+
 /// The control: weights of light samples and paths that do not add up to 1, and a floor that reflects a twentieth more for one of the estimators, are
 /// noticed.
 #[test]

@@ -13,6 +13,16 @@ pub struct Features {
     pub lamp: &'static str,
     pub lamp_shape: &'static str,
     pub settings: &'static str,
+    pub links: Links,
+}
+
+/// Which lamps light what: keys of the lamp or the sky, of the glowing body, and the receivers of the body and of the floor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Links {
+    pub lamp: &'static str,
+    pub glow: &'static str,
+    pub body: &'static str,
+    pub floor: &'static str,
 }
 
 /// The shape of the body.
@@ -112,6 +122,43 @@ const SETTINGS: &[&str] = &[
     "light_choice = \"power\", light_sampling = \"area\"",
 ];
 
+const BODY: &str = ", receiver = \"body\"";
+const FLOOR: &str = ", receiver = \"floor\"";
+const LINKS: &[Links] = &[
+    Links { lamp: "", glow: "", body: "", floor: "" },
+    Links { lamp: ", lights_only = [\"body\"]", glow: "", body: BODY, floor: "" },
+    Links { lamp: ", lights_all_but = [\"body\"]", glow: ", lights_only = [\"rest\"]", body: BODY, floor: "" },
+    Links { lamp: ", lights_all_but = [\"floor\"]", glow: ", lights_only = [\"floor\"]", body: "", floor: FLOOR },
+];
+
+/// Every way of linking lamps, on bodies that let light through, that send it on as mirrors, that stand in the scene as instances, and that glow.
+pub fn linked() -> impl Iterator<Item = (String, Features)> {
+    let plain = Features {
+        body: BODIES[0],
+        opacity: WHOLE,
+        relief: FLAT,
+        sides: SIDES[0],
+        glow: GLOWS[0],
+        shape: Shape::Ball,
+        motion: MOTIONS[0],
+        lamp: LAMPS[0],
+        lamp_shape: LAMP_SHAPES[0],
+        settings: SETTINGS[0],
+        links: LINKS[0],
+    };
+    let bodies = [
+        ("translucent", Features { opacity: OPACITIES[1], lamp: LAMPS[1], ..plain }),
+        ("a mirror, lamps by cells", Features { body: BODIES[6], settings: SETTINGS[2], ..plain }),
+        ("an instance of glass under the sky", Features { body: BODIES[5], shape: Shape::Instance, lamp_shape: SKY, ..plain }),
+        ("glowing, lamps by a tree", Features { glow: GLOWS[3], shape: Shape::Box, settings: SETTINGS[1], ..plain }),
+        ("three light samples under a ball", Features { settings: SETTINGS[3], lamp_shape: LAMP_SHAPES[1], ..plain }),
+    ];
+    let linked = LINKS.iter().enumerate().skip(1);
+    linked.flat_map(move |(number, &links)| {
+        bodies.map(|(name, features)| (format!("{name}, links {number}"), Features { links, ..features }))
+    })
+}
+
 /// Each of the stacks on a body, in turn under a lamp and under the sky.
 pub fn stacks() -> impl Iterator<Item = (&'static str, Features)> {
     let plain = Features {
@@ -125,6 +172,7 @@ pub fn stacks() -> impl Iterator<Item = (&'static str, Features)> {
         lamp: LAMPS[0],
         lamp_shape: LAMP_SHAPES[1],
         settings: SETTINGS[0],
+        links: LINKS[0],
     };
     STACKS.iter().enumerate().map(move |(place, &(name, body))| {
         let lamp_shape = if place % 2 == 0 { plain.lamp_shape } else { SKY };
@@ -146,6 +194,7 @@ pub fn remembered() -> [(&'static str, Features); 5] {
         lamp: LAMPS[0],
         lamp_shape: LAMP_SHAPES[0],
         settings: SETTINGS[0],
+        links: LINKS[0],
     };
     let perturbed_sheet = Features {
         body: "type = \"diffuse\", reflectance = 0.05",
@@ -190,6 +239,7 @@ impl Features {
             lamp: LAMPS[one_of(LAMPS.len())],
             lamp_shape: LAMP_SHAPES[one_of(LAMP_SHAPES.len())],
             settings: SETTINGS[one_of(SETTINGS.len())],
+            links: LINKS[one_of(LINKS.len())],
         };
         if !shape.takes_relief() {
             features.relief = FLAT;
@@ -206,7 +256,11 @@ impl Features {
 
     /// The scene file.
     pub fn scene(&self) -> String {
-        let Self { body, opacity, relief, sides, glow, shape, motion, lamp, lamp_shape, settings } = self;
+        let Self { body, opacity, relief, sides, glow, shape, motion, lamp, lamp_shape, settings, links } = self;
+        // Of surroundings no lamp is left.
+        let link_of_lamp = if *lamp_shape == SKY { "" } else { links.lamp };
+        let link_of_glow = if glow.is_empty() { "" } else { links.glow };
+        let (receiver, floor) = (links.body, links.floor);
         let rotated = "transform = [{ rotate = [1, 0.3, 0], degrees = 35 }, { translate = [0, 1.1, 0] }]";
         let mesh = "type = \"mesh\", positions = [[-0.9, -0.1, 0.8], [0.9, 0.2, 0.8], [0.9, -0.2, -0.8], [-0.9, 0.2, -0.8]], \
                     uvs = [[0, 0], [1, 0], [1, 1], [0, 1]], faces = [[0, 1, 2], [0, 2, 3]]";
@@ -222,16 +276,21 @@ impl Features {
             Shape::Disk => format!("type = \"disk\", center = [0, 0, 0], normal = [0, 1, 0], radius = 0.8, {rotated}"),
         };
         let instanced = *shape == Shape::Instance;
-        let motion_of_shape = if instanced { "" } else { motion };
-        let body_shape = format!("{{ {place}, material = \"body\"{motion_of_shape} }}");
+        let (motion_of_shape, receiver_of_shape) = if instanced { ("", "") } else { (*motion, receiver) };
+        let body_shape = format!("{{ {place}, material = \"body\"{motion_of_shape}{receiver_of_shape} }}");
         let group =
             if instanced { format!("group = [{{ name = \"bodies\", shape = [{body_shape}] }}]\n") } else { String::new() };
-        let instance = if instanced { format!("instance = [{{ group = \"bodies\"{motion} }}]\n") } else { String::new() };
+        let instance =
+            if instanced { format!("instance = [{{ group = \"bodies\"{motion}{receiver} }}]\n") } else { String::new() };
         let body_shape = if instanced { String::new() } else { format!("  {body_shape},\n") };
         let (light, lamp_shape) = if *lamp_shape == SKY {
-            ("light = [{ type = \"sky\", zenith = [0.3, 0.5, 0.9], horizon = 0.8, ground = 0.3 }]\n", String::new())
+            let link = links.lamp;
+            (
+                format!("light = [{{ type = \"sky\", zenith = [0.3, 0.5, 0.9], horizon = 0.8, ground = 0.3{link} }}]\n"),
+                String::new(),
+            )
         } else {
-            ("", format!("  {{ {lamp_shape}, material = \"lamp\" }},\n"))
+            (String::new(), format!("  {{ {lamp_shape}, material = \"lamp\" }},\n"))
         };
         format!(
             r#"
@@ -245,7 +304,7 @@ texture = [
 medium = [{{ name = "haze", scattering = [3, 2, 1], absorption = [0.2, 0.5, 1], phase = {{ type = "henyey_greenstein", g = 0.4 }} }}]
 material = [
   {{ name = "floor", type = "diffuse", reflectance = 0.6 }},
-  {{ name = "lamp", {lamp} }},
+  {{ name = "lamp", {lamp}{link_of_lamp} }},
   {{ name = "frosted", type = "rough_glass", ior = 1.4, alpha = 0.3 }},
   {{ name = "varnish", type = "glass", ior = 1.5 }},
   {{ name = "metal", type = "conductor", preset = "copper", alpha = 0.35 }},
@@ -253,10 +312,10 @@ material = [
   {{ name = "coated", type = "layered", interfaces = ["frosted", "paint"] }},
   {{ name = "half coated", type = "blend", materials = ["paint", "also coated"], weight = {{ type = "constant", value = 0.4 }} }},
   {{ name = "also coated", type = "layered", interfaces = ["varnish", "metal"] }},
-  {{ name = "body", {body}{opacity}{relief}{sides}{glow} }},
+  {{ name = "body", {body}{opacity}{relief}{sides}{glow}{link_of_glow} }},
 ]
 shape = [
-  {{ type = "rectangle", corner = [-3, 0, 3], edge_u = [6, 0, 0], edge_v = [0, 0, -6], material = "floor" }},
+  {{ type = "rectangle", corner = [-3, 0, 3], edge_u = [6, 0, 0], edge_v = [0, 0, -6], material = "floor"{floor} }},
 {body_shape}{lamp_shape}]
 {group}{instance}{light}"#
         )

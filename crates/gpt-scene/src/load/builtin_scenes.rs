@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use super::examples;
 
 /// Name and text of every built-in scene that is a file; the first is the default.
-const SCENES: [(&str, &str); 35] = [
+const SCENES: [(&str, &str); 36] = [
     ("cornell", include_str!(concat!(env!("GPT_SCENES"), "/cornell.toml"))),
     ("spheres", include_str!(concat!(env!("GPT_SCENES"), "/spheres.toml"))),
     ("veach-mis", include_str!(concat!(env!("GPT_SCENES"), "/veach-mis.toml"))),
@@ -37,6 +37,7 @@ const SCENES: [(&str, &str); 35] = [
     ("mist", include_str!(concat!(env!("GPT_SCENES"), "/mist.toml"))),
     ("bonfire", include_str!(concat!(env!("GPT_SCENES"), "/bonfire.toml"))),
     ("model-town", include_str!(concat!(env!("GPT_SCENES"), "/model-town.toml"))),
+    ("duet", include_str!(concat!(env!("GPT_SCENES"), "/duet.toml"))),
     ("furnace-lambert", include_str!(concat!(env!("GPT_SCENES"), "/furnace-lambert.toml"))),
     ("furnace-box", include_str!(concat!(env!("GPT_SCENES"), "/furnace-box.toml"))),
     ("furnace-glass", include_str!(concat!(env!("GPT_SCENES"), "/furnace-glass.toml"))),

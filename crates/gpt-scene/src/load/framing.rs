@@ -206,6 +206,7 @@ fn add(scene: &mut Scene, label: &str, material: Material, geometry: Geometry) {
         transform: Transform::default(),
         motion: None,
         portal: false,
+        receiver: 0,
     });
 }
 

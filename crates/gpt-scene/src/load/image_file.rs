@@ -128,14 +128,22 @@ pub fn one_texel(numbers: [f64; 3]) -> Result<Vec<u8>, String> {
     Ok(encoded.into_inner())
 }
 
-/// A picture of one channel, as PNG: 1 less the alpha of an encoded picture, times a factor.
-pub fn inverted_alpha(bytes: &[u8], factor: f64) -> Result<Vec<u8>, String> {
-    let invalid = |error: image::ImageError| format!("is not a valid image: {error}");
+/// A picture of a format that its bytes tell, as it is encoded.
+///
+/// # Errors
+/// A sentence about what cannot be read.
+pub fn decoded(bytes: &[u8]) -> Result<image::DynamicImage, String> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|error| error.to_string())?;
     let mut limits = Limits::default();
     (limits.max_image_width, limits.max_image_height) = (Some(LARGEST_SIDE), Some(LARGEST_SIDE));
     reader.limits(limits);
-    let alpha = reader.decode().map_err(invalid)?.into_rgba8();
+    reader.decode().map_err(|error| format!("is not a valid image: {error}"))
+}
+
+/// A picture of one channel, as PNG: 1 less the alpha of an encoded picture, times a factor.
+pub fn inverted_alpha(bytes: &[u8], factor: f64) -> Result<Vec<u8>, String> {
+    let invalid = |error: image::ImageError| format!("is not a valid image: {error}");
+    let alpha = decoded(bytes)?.into_rgba8();
     let byte = |alpha: u8| (255.0 * (1.0 - factor * f64::from(alpha) / 255.0)).round().clamp(0.0, 255.0) as u8;
     let grey = image::GrayImage::from_fn(alpha.width(), alpha.height(), |x, y| image::Luma([byte(alpha.get_pixel(x, y).0[3])]));
     let mut encoded = Cursor::new(Vec::new());

@@ -98,6 +98,9 @@ fn expand(document: &Document<'_>, file: &mut SceneFile, folder: &Path, access: 
         environment_is_open = description.keep_environment(environment_is_open);
         description.prefix_names(&format!("{}/", prefix(&imports, index)));
         replace_materials(document, entry, &format!("{}/", prefix(&imports, index)), &mut description)?;
+        if let Some(receiver) = &entry.receiver {
+            description.set_receiver(receiver);
+        }
         imported.warnings.extend(description.warnings(&entry.file.value, access.strict)?);
         let SceneFile { camera, node, texture, medium, material, shape, group, instance, light, meter, .. } = description.file;
         file.camera = file.camera.take().or(camera);

@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 use super::image::ImageData;
 use super::light::Light;
 use super::light_groups::LightGroups;
+use super::light_links::LightLinks;
 use super::model::Scene;
 use super::shape::{Geometry, Mesh};
 use super::texture::TextureKind;
@@ -84,6 +85,10 @@ fn finish(mut hash: Sha256, scene: &Scene) -> String {
     hash_media(&mut hash, &mut rest);
     if rest.light_groups != LightGroups::default() {
         let printed = write!(HashWriter(&mut hash), "{:?}", rest.light_groups);
+        debug_assert!(printed.is_ok(), "hashing cannot fail");
+    }
+    if rest.light_links != LightLinks::default() {
+        let printed = write!(HashWriter(&mut hash), "{:?}", rest.light_links);
         debug_assert!(printed.is_ok(), "hashing cannot fail");
     }
     hash.finalize().iter().fold(String::new(), |mut hexadecimal, byte| {
@@ -183,6 +188,7 @@ mod tests {
             transform: Transform::default(),
             motion: None,
             portal: false,
+            receiver: 0,
         };
         Scene { shapes: vec![shape], ..Scene::default() }
     }

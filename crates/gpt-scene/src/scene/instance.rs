@@ -1,10 +1,12 @@
 //! Meshes that are stored once and stand in many places.
 
+use std::fmt;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::check::{Check, within_range};
+use super::light_links::ReceiverId;
 use super::material::MaterialId;
 use super::motion::Motion;
 use super::shape::{Geometry, Shape};
@@ -19,7 +21,7 @@ pub struct Group {
 }
 
 /// One group in one place or in many. None of their faces emits: readers of scene files make shapes of emitters, one for each place.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Instances {
     /// How errors and reports call them.
     pub label: String,
@@ -35,6 +37,8 @@ pub struct Instances {
     pub motion: Option<Motion>,
     /// The point that the motion is about instead, in the world at shutter time 0.
     pub pivot: Option<DVec3>,
+    /// The group of receivers that they belong to.
+    pub receiver: ReceiverId,
 }
 
 /// A ball around a group.
@@ -57,6 +61,20 @@ impl Group {
     pub fn triangles(&self) -> usize {
         let faces = |shape: &Shape| if let Geometry::Mesh(mesh) = &shape.geometry { mesh.faces.len() } else { 0 };
         self.shapes.iter().map(faces).sum()
+    }
+}
+
+/// Prints a receiver where it is one of its own: fingerprints of scenes without light links stay as they are.
+impl fmt::Debug for Instances {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { label, group, places, transform, material, motion, pivot, receiver } = self;
+        let mut fields = formatter.debug_struct("Instances");
+        fields.field("label", label).field("group", group).field("places", places).field("transform", transform);
+        fields.field("material", material).field("motion", motion).field("pivot", pivot);
+        if *receiver != 0 {
+            fields.field("receiver", receiver);
+        }
+        fields.finish()
     }
 }
 
@@ -132,6 +150,7 @@ mod tests {
             material: None,
             motion: None,
             pivot: None,
+            receiver: 0,
         }
     }
 

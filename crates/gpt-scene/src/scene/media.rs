@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::light::{Light, LightStrength};
 use super::light_groups::LightGroupId;
+use super::light_links::ReceiverId;
 use super::material::{Material, MaterialId, MaterialKind};
 use super::medium::{Medium, MediumId, Phase};
 use super::medium_grids::MediumGrids;
@@ -50,6 +51,8 @@ pub struct Filling {
     pub is_dark: bool,
     /// The light group of what is given off. Media that differ in it alone are not one.
     pub light_group: LightGroupId,
+    /// The group of receivers to which places belong where it scatters light.
+    pub receiver: ReceiverId,
 }
 
 impl Filling {
@@ -65,6 +68,7 @@ impl Filling {
             is_light_sampled: false,
             is_dark: false,
             light_group: 0,
+            receiver: 0,
         }
     }
 
@@ -81,6 +85,7 @@ impl Filling {
             is_light_sampled: false,
             is_dark: false,
             light_group: 0,
+            receiver: 0,
         }
     }
 
@@ -119,7 +124,11 @@ impl Media {
     /// The media of a scene: those that its materials enclose, those below surfaces, absorbing bodies of glass, and where there are some, a clear one for all other bodies
     /// that let light in through a boundary: within another body they take its place. A blend has the medium of the first part that is not clear.
     pub fn of(scene: &Scene) -> Self {
-        let of_scene = |id: MediumId| Filling { light_group: scene.light_groups.of_medium(id), ..Filling::of(&scene.media[id]) };
+        let of_scene = |id: MediumId| Filling {
+            light_group: scene.light_groups.of_medium(id),
+            receiver: scene.light_links.of_medium(id),
+            ..Filling::of(&scene.media[id])
+        };
         let own = |material: &Material| match (&material.kind, material.interior) {
             (_, Some(id)) => Some(of_scene(id)),
             (MaterialKind::Principled(principled), None) if principled.attenuation.is_some() => {

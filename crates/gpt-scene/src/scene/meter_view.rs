@@ -139,6 +139,7 @@ fn lay(view: &mut Scene, reflectance: f64, geometry: Geometry) {
         transform: Default::default(),
         motion: None,
         portal: false,
+        receiver: 0,
     });
 }
 

@@ -20,7 +20,9 @@ mod instance;
 pub mod light;
 mod light_at;
 pub mod light_groups;
+pub mod light_links;
 mod light_of_groups;
+mod links_of_scene;
 pub mod material;
 pub mod media;
 pub mod medium;
@@ -60,6 +62,7 @@ pub use light::{
     LightStrength, MapRows, OutsideParameters, PointLight, ProjectedTexture, Projector, Sky, SpotLight,
 };
 pub use light_groups::{LightGroupId, LightGroups};
+pub use light_links::{LightLinks, LinkMask, ReceiverId, SEES_ALL};
 pub use material::{
     Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Dispersion, Emission, LayerModel, LayerStack, LobeKind,
     LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets,

@@ -10,6 +10,7 @@ use super::import_report::ImportReport;
 use super::instance::{Group, Instances};
 use super::light::{Environment, EnvironmentRadiance, Light};
 use super::light_groups::LightGroups;
+use super::light_links::LightLinks;
 use super::material::{Material, MaterialId, MaterialKind};
 use super::medium::{Medium, MediumId};
 use super::meter::Meter;
@@ -64,6 +65,9 @@ pub struct Scene {
     /// The names under which light of some emitters is kept apart.
     #[doc(hidden)]
     pub light_groups: LightGroups,
+    /// Which lamps light which objects.
+    #[doc(hidden)]
+    pub light_links: LightLinks,
     /// Places where light is measured.
     #[doc(hidden)]
     pub meters: Vec<Meter>,

@@ -100,7 +100,16 @@ mod tests {
 
     fn instances(places: Vec<DAffine3>) -> Instances {
         let (transform, places) = (Transform::default(), Arc::new(places));
-        Instances { label: "instance[0]".into(), group: 0, places, transform, material: None, motion: None, pivot: None }
+        Instances {
+            label: "instance[0]".into(),
+            group: 0,
+            places,
+            transform,
+            material: None,
+            motion: None,
+            pivot: None,
+            receiver: 0,
+        }
     }
 
     #[test]
@@ -114,6 +123,7 @@ mod tests {
             transform: Transform::default(),
             motion: None,
             portal: false,
+            receiver: 0,
         };
         let material = crate::scene::Material {
             name: "lamp".into(),

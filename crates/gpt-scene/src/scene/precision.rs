@@ -71,7 +71,8 @@ mod tests {
         ];
         let alone = |geometry: Geometry| {
             let transform = Transform { steps: vec![TransformStep::Scale(DVec3::splat(scale))] };
-            let shape = Shape { label: "shape".into(), geometry, material: 0, transform, motion: None, portal: false };
+            let shape =
+                Shape { label: "shape".into(), geometry, material: 0, transform, motion: None, portal: false, receiver: 0 };
             Scene { shapes: vec![shape], ..Scene::default() }.precision_warnings().len()
         };
         geometries.into_iter().map(alone).sum()
@@ -88,8 +89,15 @@ mod tests {
     #[test]
     fn many_are_counted() {
         let geometry = Geometry::Sphere(Sphere { center: DVec3::ZERO, radius: 1e12 });
-        let shape =
-            Shape { label: "sphere".into(), geometry, material: 0, transform: Transform::default(), motion: None, portal: false };
+        let shape = Shape {
+            label: "sphere".into(),
+            geometry,
+            material: 0,
+            transform: Transform::default(),
+            motion: None,
+            portal: false,
+            receiver: 0,
+        };
         let warnings = Scene { shapes: vec![shape; 10], ..Scene::default() }.precision_warnings();
         assert_eq!(warnings.len(), MOST_NAMED + 1);
         assert!(

@@ -73,7 +73,8 @@ impl Scene {
             let projected = entry.texture().map_or(Ok(()), |texture| self.texture_exists(texture));
             of(|| format!("light[{index}]"), projected.and(entry.check()))?;
         }
-        of(|| "environment".into(), self.check_environments().and(self.check_light_groups()))
+        of(|| "environment".into(), self.check_environments().and(self.check_light_groups()))?;
+        of(|| "light links".into(), self.check_light_links())
     }
 
     fn validate_instances(&self, textured: &[bool]) -> Result<(), InvalidScene> {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::animation;
 use super::needed::named_texture;
 use crate::load::file::writer::{Writer, flag, line, number, text};
-use crate::load::file::{write_kind, write_light_group};
+use crate::load::file::{write_kind, write_light_group, write_link};
 use crate::scene::{Emission, Material, MaterialId, MaterialKind, Relief};
 
 pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
@@ -36,6 +36,7 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
         None => {}
     }
     out += &write_light_group(writer.scene.light_groups.of_material(id), writer);
+    out += &write_link(writer.scene.light_links.of_material(id), writer);
     if let Some(medium) = material.interior {
         out += &line("interior", &writer.media.quoted(medium));
     }

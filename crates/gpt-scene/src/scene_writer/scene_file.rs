@@ -5,7 +5,7 @@ use std::path::Path;
 use super::needed::Needed;
 use super::{animation, material, settings, shape, texture};
 use crate::load::file::writer::{Names, SideFiles, Writer, line, text as quoted};
-use crate::load::file::{FORMAT_VERSION, write_light, write_light_group, write_medium, write_meter};
+use crate::load::file::{FORMAT_VERSION, write_light, write_light_group, write_link, write_medium, write_meter, write_receiver};
 use crate::scene::Scene;
 
 /// The text of the scene file that would lie at `path`. Pictures that cannot be read are named, unless colours are to be written in their place.
@@ -31,7 +31,9 @@ pub fn scene_text(scene: &Scene, path: &Path, names_unreadable: bool) -> (String
         text.push_str(&texture::texture(id, &mut writer));
     }
     for (id, medium) in scene.media.iter().enumerate() {
-        let keys = write_medium(medium, &mut writer) + &write_light_group(scene.light_groups.of_medium(id), &writer);
+        let keys = write_medium(medium, &mut writer)
+            + &write_light_group(scene.light_groups.of_medium(id), &writer)
+            + &write_receiver(scene.light_links.of_medium(id), &writer);
         text.push_str(&format!("\n[[medium]]\n{}{keys}", line("name", &writer.media.quoted(id))));
     }
     for id in needed.materials() {
@@ -49,7 +51,9 @@ pub fn scene_text(scene: &Scene, path: &Path, names_unreadable: bool) -> (String
         text.push_str(&shape::instances(instances, &mut writer));
     }
     for (index, light) in scene.lights.iter().enumerate() {
-        let keys = write_light(light, &mut writer) + &write_light_group(scene.light_groups.of_light(index), &writer);
+        let keys = write_light(light, &mut writer)
+            + &write_light_group(scene.light_groups.of_light(index), &writer)
+            + &write_link(scene.light_links.of_light(index), &writer);
         text.push_str(&format!("\n[[light]]\n{}{keys}", line("type", &quoted(light.kind_name()))));
         let tracks = animation.lights.iter().filter(|track| track.light == index);
         tracks.for_each(|track| text.push_str(&animation::light(track, light, &writer.nodes)));

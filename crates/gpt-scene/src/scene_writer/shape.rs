@@ -2,8 +2,8 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::load::file::write_geometry;
 use crate::load::file::writer::{Writer, direction, line, list, number, numbers, table, text, vector};
+use crate::load::file::{write_geometry, write_receiver};
 use crate::load::{place_rows, write_places};
 use crate::scene::{Group, Instances, MotionStep, Shape, TransformStep};
 
@@ -23,7 +23,7 @@ pub fn shape(heading: &str, shape: &Shape, writer: &mut Writer<'_>) -> String {
     if shape.portal {
         out += &line("portal", "true");
     }
-    out
+    out + &write_receiver(shape.receiver, writer)
 }
 
 /// `[[group]]` with its shapes.
@@ -58,7 +58,7 @@ pub fn instances(instances: &Instances, writer: &mut Writer<'_>) -> String {
             out += &line("pivot", &vector(pivot));
         }
     }
-    out
+    out + &write_receiver(instances.receiver, writer)
 }
 
 /// A step of a transform.

@@ -62,6 +62,7 @@ function tell() {
   $("facts").title = state.noise !== null ? "Relative mean squared error as gpt compare measures it, were all samples independent; those of sobol and the like do better" : "";
   $("message").hidden = !state.message;
   $("message").textContent = state.message;
+  tellGroups();
   const known = [...$("layer").options].slice(3).map((option) => option.value);
   if (known.join() !== state.layers.join()) {
     [...$("layer").options].slice(3).forEach((option) => option.remove());
@@ -122,8 +123,8 @@ function paint() {
 function develop() {
   isStale = false;
   const context = developed.getContext("2d"), image = context.createImageData(picture.width, picture.height), bytes = image.data;
-  const values = picture.values, pixels = picture.width * picture.height;
-  const isRadiance = layer === "" || ["Albedo", "Direct", "Indirect", "Emission"].includes(layer);
+  const values = shownValues(), pixels = picture.width * picture.height;
+  const isRadiance = layer === "" || groups.names.includes(layer) || ["Albedo", "Direct", "Indirect", "Emission"].includes(layer);
   if (isRadiance) {
     if (autoExposure && layer === "") $("exposure").value = meter(values).toFixed(1);
     const show = developer($("curve").value, layer === "Albedo" ? 0 : Number($("exposure").value));
@@ -168,10 +169,10 @@ function read() {
   if (!pointer || !picture.width) return;
   const x = Math.floor((pointer.x - place.x) / place.scale), y = Math.floor((pointer.y - place.y) / place.scale);
   if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) { $("readout").textContent = "Point at a pixel for its values."; return; }
-  const at = 5 * (y * picture.width + x), values = picture.values;
+  const at = 5 * (y * picture.width + x), values = shownValues();
   const numbers = [0, 1, 2].map((c) => values[at + c].toPrecision(5)).join("  ");
   const error = values[at + 4], samples = values[at + 3];
-  const rest = isOfServer() ? "" : `   luminance ${luminance(values, at).toPrecision(4)}${error >= 0 ? ` ± ${error.toPrecision(2)}` : ""}   ${samples} samples`;
+  const rest = isOfServer() || values !== picture.values ? "" : `   luminance ${luminance(values, at).toPrecision(4)}${error >= 0 ? ` ± ${error.toPrecision(2)}` : ""}   ${samples} samples`;
   $("readout").textContent = `${x}, ${y}   ${numbers}${rest}`;
 }
 
@@ -271,4 +272,3 @@ document.addEventListener("keydown", (event) => {
 });
 window.addEventListener("resize", draw);
 new ResizeObserver(draw).observe(canvas);
-follow();

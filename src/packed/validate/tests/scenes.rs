@@ -55,7 +55,7 @@ fn plain(name: &str, kind: MaterialKind) -> Material {
 }
 
 fn shape(geometry: Geometry, material: usize) -> Shape {
-    Shape { label: "shape".into(), geometry, material, transform: Transform::default(), motion: None, portal: false }
+    Shape { label: "shape".into(), geometry, material, transform: Transform::default(), motion: None, portal: false, receiver: 0 }
 }
 
 fn mesh(side: u32, face_materials: &[usize]) -> Mesh {
@@ -104,7 +104,16 @@ fn add_instances(scene: &mut Scene) {
             [1.0, -2.0].map(|x| DAffine3::from_scale_rotation_translation(DVec3::new(x, 1.0, 1.0), DQuat::IDENTITY, DVec3::Y));
         let transform = Transform::default();
         let places = Arc::new(places.to_vec());
-        scene.instances.push(Instances { label: "instance".into(), group, places, transform, material, motion, pivot: None });
+        scene.instances.push(Instances {
+            label: "instance".into(),
+            group,
+            places,
+            transform,
+            material,
+            motion,
+            pivot: None,
+            receiver: 0,
+        });
     }
 }
 

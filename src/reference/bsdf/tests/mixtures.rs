@@ -22,7 +22,7 @@ fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
         Geometry::Rectangle(Rectangle { corner: DVec3::new(-5.0, -5.0, 0.0), edge_u: DVec3::X * 10.0, edge_v: DVec3::Y * 10.0 });
     let material = scene.materials.len() - 1;
     let transform = Transform::default();
-    scene.shapes.push(Shape { label: "square".into(), geometry, material, transform, motion: None, portal: false });
+    scene.shapes.push(Shape { label: "square".into(), geometry, material, transform, motion: None, portal: false, receiver: 0 });
     scene
 }
 

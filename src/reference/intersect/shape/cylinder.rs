@@ -232,6 +232,7 @@ mod tests {
                 transform: Transform { steps },
                 motion: None,
                 portal: false,
+                receiver: 0,
             };
             elements(&own, &Placement::new(&shape)).remove(0).1
         };
@@ -336,6 +337,7 @@ mod tests {
                 transform: Transform::default(),
                 motion: None,
                 portal: false,
+                receiver: 0,
             }];
             assert_eq!(wrong.validate().is_ok(), is_right);
         }

@@ -1,5 +1,6 @@
 //! glTF in both forms.
 
+mod image_based;
 mod materials;
 mod meshes;
 mod motion;

@@ -33,6 +33,7 @@ impl Resolver<'_> {
         let meshes: Vec<Shape> = group.shapes.iter().map(|shape| self.made_of(shape, instances.material)).collect();
         let copy = |number: usize, map: DAffine3, shape: &Shape| {
             let mut copy = shape.clone();
+            copy.receiver = instances.receiver;
             copy.label = format!("{}, number {number}", instances.label);
             let Some(motion) = &instances.motion else {
                 copy.transform.steps.push(TransformStep::Matrix(map));

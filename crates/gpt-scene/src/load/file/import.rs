@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::light_link::ReceiverName;
 use super::shape::TransformEntry;
 use super::value::Located;
 
@@ -25,6 +26,8 @@ pub struct ImportEntry {
     /// The imported file's materials, by their names, that materials of this file take the place of.
     #[serde(default)]
     pub materials: BTreeMap<String, Located<String>>,
+    /// The group of receivers that all of its shapes belong to, which lamps name in `lights_only` and `lights_all_but`; "rest" when left out.
+    pub receiver: Option<Located<ReceiverName>>,
     /// Values of `$key` in a Mitsuba file.
     #[serde(default)]
     pub define: BTreeMap<String, String>,

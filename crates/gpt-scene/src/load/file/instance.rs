@@ -8,6 +8,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::light_link::ReceiverName;
 use super::nested::{FileGroup, Groups, NestedInstance};
 use super::place_file::{PLACE_NUMBERS, PlaceFormat, place_rows};
 use super::reference::FileOr;
@@ -82,6 +83,8 @@ pub struct InstanceEntry {
     pub motion: Option<Located<TransformEntry>>,
     /// A point of the world, at shutter time 0, about which `motion` turns and scales all of the instances.
     pub pivot: Option<Located<Vector>>,
+    /// The group of receivers that the instances belong to, which lamps name in `lights_only` and `lights_all_but`; "rest" when left out.
+    pub receiver: Option<Located<ReceiverName>>,
 }
 
 /// Places of instances, as they are written.
@@ -154,6 +157,10 @@ impl Resolver<'_> {
         if !matches!(shape.geometry, Geometry::Mesh(_)) {
             let message = format!("a group consists of meshes, and this is a {}", shape.geometry.kind_name());
             return Err(self.error(&written.place, message).with_help("write it as a [[shape]] for each place, or as a mesh"));
+        }
+        if let Some(receiver) = written.value.common().receiver {
+            let message = "a mesh of a group belongs to the receivers of the instance: an [[instance]] has `receiver`";
+            return Err(self.error(&receiver.place, message));
         }
         if shape.motion.is_some() || is_deformed || written.value.is_animated() || shape.portal {
             let message = "a mesh of a group has no motion of its own, is not deformed and is no portal";
@@ -234,7 +241,8 @@ impl Resolver<'_> {
         }
         let pivot = written.pivot.as_ref().map(|pivot| vector(pivot.value));
         let label = format!("instance[{index}] of `{}`", groups.name(group));
-        Ok(Instances { label, group, places: Arc::new(places), transform, material, motion, pivot })
+        let receiver = self.receiver(written.receiver.as_ref())?;
+        Ok(Instances { label, group, places: Arc::new(places), transform, material, motion, pivot, receiver })
     }
 
     /// The places, one where none are written, and what comes behind them.

@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use super::colour::Rgb;
 use super::light_group::LightGroupName;
+use super::light_link::ReceiverName;
 use super::resolver::Resolver;
 use super::value::{Checked, Fraction, GasTemperature, LARGEST, Located, MeanCosine, NonNegative, Positive};
 use super::volume::{VolumeEntry, write_volume};
@@ -58,6 +59,8 @@ pub struct MediumEntry {
     pub temperature: Option<Box<Located<VolumeEntry>>>,
     /// With `emission`: the light group in which `--aov groups` keeps what is given off apart; "rest" when left out.
     pub light_group: Option<Located<LightGroupName>>,
+    /// The group of receivers to which places within belong, where the medium scatters light of lamps that say what they light; "rest" when left out.
+    pub receiver: Option<Located<ReceiverName>>,
 }
 
 /// A phase function.

@@ -255,7 +255,16 @@ mod tests {
 
     fn entry(group: usize, places: Vec<DAffine3>) -> Instances {
         let (transform, places) = (Transform::default(), Arc::new(places));
-        Instances { label: "instance[0]".into(), group, places, transform, material: None, motion: None, pivot: None }
+        Instances {
+            label: "instance[0]".into(),
+            group,
+            places,
+            transform,
+            material: None,
+            motion: None,
+            pivot: None,
+            receiver: 0,
+        }
     }
 
     fn at(x: f64) -> DAffine3 {

@@ -91,6 +91,8 @@ pub struct Resolver<'a> {
     pub(super) deformation: Option<Deformation>,
     /// The material of faces that name none.
     pub(super) unnamed_material: Option<MaterialId>,
+    /// Names of receivers that lamps list.
+    pub(super) linked_receivers: Vec<Located<String>>,
 }
 
 impl<'a> Resolver<'a> {
@@ -115,6 +117,7 @@ impl<'a> Resolver<'a> {
             ranges: RefCell::default(),
             deformation: None,
             unnamed_material: None,
+            linked_receivers: Vec::new(),
         }
     }
 

@@ -38,7 +38,7 @@ objects! {
     }
     /// Versions are text, and were numbers in drafts.
     Asset { version: Option<Value>, min_version: Option<Value>, }
-    Scene { nodes: Vec<usize>, }
+    Scene { nodes: Vec<usize>, extensions: Extensions, }
     Node {
         name: Option<String>,
         children: Vec<usize>,

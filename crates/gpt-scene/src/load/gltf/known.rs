@@ -76,9 +76,10 @@ macro_rules! objects {
 }
 
 /// Extensions that are read, and whether they are about the picture; what of them is not exact is in the report.
-pub const EXTENSIONS: [(&str, Role); 32] = [
+pub const EXTENSIONS: [(&str, Role); 33] = [
     ("KHR_lights_punctual", Role::Read),
     ("EXT_lights_ies", Role::Read),
+    ("EXT_lights_image_based", Role::Read),
     ("KHR_texture_transform", Role::Read),
     ("KHR_mesh_quantization", Role::Read),
     ("EXT_meshopt_compression", Role::Read),
@@ -133,9 +134,19 @@ objects! {
         list("animations", &ANIMATION),
         read("extensionsUsed"),
         read("extensionsRequired"),
-    ] with "KHR_lights_punctual": LIGHTS, "EXT_lights_ies": PROFILES, "KHR_materials_variants": VARIANTS;
+    ] with "KHR_lights_punctual": LIGHTS, "EXT_lights_ies": PROFILES, "EXT_lights_image_based": IMAGE_LIGHTS,
+        "KHR_materials_variants": VARIANTS;
     ASSET [read("version"), read("minVersion"), aside("generator"), aside("copyright")];
-    SCENE [read("nodes")];
+    SCENE [read("nodes")] with "EXT_lights_image_based": LIGHT_OF_SCENE;
+    IMAGE_LIGHTS [list("lights", &IMAGE_LIGHT)];
+    IMAGE_LIGHT [
+        read("rotation"),
+        read("intensity"),
+        read("irradianceCoefficients"),
+        read("specularImages"),
+        aside("specularImageSize"),
+    ];
+    LIGHT_OF_SCENE [read("light")];
     NODE [
         read("camera"),
         read("children"),

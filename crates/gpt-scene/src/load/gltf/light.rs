@@ -52,6 +52,8 @@ impl Importer<'_> {
                 interpolation: None,
                 node: None,
                 light_group: None,
+                lights_only: None,
+                lights_all_but: None,
             }),
             "directional" => LightEntry::Directional(directional::Keys {
                 direction,
@@ -60,6 +62,8 @@ impl Importer<'_> {
                 interpolation: None,
                 node: None,
                 light_group: None,
+                lights_only: None,
+                lights_all_but: None,
             }),
             "spot" => {
                 let cone = light.spot.clone().unwrap_or_default();
@@ -93,6 +97,8 @@ impl Importer<'_> {
                     interpolation: None,
                     node: None,
                     light_group: None,
+                    lights_only: None,
+                    lights_all_but: None,
                 })
             }
             other => {

@@ -54,6 +54,8 @@ impl Importer<'_> {
             interpolation: None,
             node: None,
             light_group: None,
+            lights_only: None,
+            lights_all_but: None,
         };
         self.scene.file.light.push(place.at(LightEntry::Point(keys)));
         Ok(())

@@ -9,6 +9,7 @@ mod bending;
 mod buffers;
 mod clipping;
 mod container;
+mod image_based;
 mod importer;
 mod json;
 mod known;
@@ -87,6 +88,7 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
     }
     importer.report_unread(json);
     importer.scene(camera).map_err(refuse)?;
+    importer.image_based_light().map_err(refuse)?;
     importer.report_clipping();
     let scene = importer.scene;
     if !root.meshes.is_empty() && scene.file.shape.is_empty() && scene.file.instance.is_empty() {

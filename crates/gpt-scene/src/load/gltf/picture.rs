@@ -142,7 +142,7 @@ impl Importer<'_> {
         Ok(())
     }
 
-    fn picture(&mut self, index: usize, image: &Image) -> Result<FileOr<EmbeddedFile>, String> {
+    pub fn picture(&mut self, index: usize, image: &Image) -> Result<FileOr<EmbeddedFile>, String> {
         if let Some(file) = self.pictures.get(&index) {
             return Ok(file.clone());
         }

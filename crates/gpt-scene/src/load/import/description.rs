@@ -8,6 +8,7 @@ use glam::{DAffine3, DVec3};
 use super::outline::{corners, outline};
 use crate::load::error::SceneError;
 use crate::load::file::instance::{GroupEntry, InstanceEntry};
+use crate::load::file::light_link::ReceiverName;
 use crate::load::file::material::MaterialEntry;
 use crate::load::file::reference::FileOr;
 use crate::load::file::shape::{ShapeEntry, TransformEntry};
@@ -84,7 +85,8 @@ impl Description {
             many => (None, Some(place.at(FileOr::InMemory(many.into())))),
         };
         let group = place.at(name.clone());
-        let keys = InstanceEntry { group, transform, places: None, file, material: None, motion: None, pivot: None };
+        let keys =
+            InstanceEntry { group, transform, places: None, file, material: None, motion: None, pivot: None, receiver: None };
         self.file.group.push(GroupEntry { name: place.at(name), shape, instance: Vec::new() });
         self.file.instance.push(place.at(keys));
         Ok(())
@@ -99,6 +101,12 @@ impl Description {
     /// Notes what a mesh that is deformed is without a frame.
     pub fn add_deformed(&mut self, mesh: &Arc<Mesh>, rest: Mesh) {
         self.deformed.insert(Arc::as_ptr(mesh) as usize, Arc::new(rest));
+    }
+
+    /// Puts every shape and instance into a group of receivers.
+    pub fn set_receiver(&mut self, receiver: &Located<ReceiverName>) {
+        self.file.shape.iter_mut().for_each(|shape| *shape.value.common_mut().receiver = Some(receiver.clone()));
+        self.file.instance.iter_mut().for_each(|instance| instance.value.receiver = Some(receiver.clone()));
     }
 
     /// A light, or a material of a shape that gives light enough.

@@ -42,6 +42,8 @@ impl Converter<'_> {
                     interpolation: None,
                     node: None,
                     light_group: None,
+                    lights_only: None,
+                    lights_all_but: None,
                 })
             }
             "spot" => LightEntry::Spot(self.spot(plugin)?),
@@ -94,6 +96,8 @@ impl Converter<'_> {
                 horizon: rgb(plugin, Spectrum::new(0.09, 0.11, 0.13))?,
                 ground: rgb(plugin, Spectrum::grey(0.02))?,
                 light_group: None,
+                lights_only: None,
+                lights_all_but: None,
             };
             self.scene.file.light.push(place.at(LightEntry::Sky(keys)));
         }
@@ -181,6 +185,8 @@ impl Converter<'_> {
             interpolation: None,
             node: None,
             light_group: None,
+            lights_only: None,
+            lights_all_but: None,
         })
     }
 
@@ -204,6 +210,8 @@ impl Converter<'_> {
             aspect: Some(plugin.possible(Checked::of(aspect))?),
             texture,
             light_group: None,
+            lights_only: None,
+            lights_all_but: None,
         })
     }
 
@@ -257,6 +265,8 @@ impl Converter<'_> {
             keyframes: None,
             interpolation: None,
             light_group: None,
+            lights_only: None,
+            lights_all_but: None,
         })
     }
 }
@@ -285,6 +295,8 @@ fn sun(plugin: &Plugin, direction: DVec3, irradiance: Spectrum) -> Result<LightE
         interpolation: None,
         node: None,
         light_group: None,
+        lights_only: None,
+        lights_all_but: None,
     }))
 }
 

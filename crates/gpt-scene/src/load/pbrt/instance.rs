@@ -87,6 +87,7 @@ impl Converter<'_> {
             material: None,
             motion: None,
             pivot: None,
+            receiver: None,
         };
         if !at_rest.is_empty() {
             let maps: Vec<_> = at_rest.iter().map(|instance| instance.maps[0]).collect();

@@ -89,6 +89,8 @@ impl Converter<'_> {
             interpolation: None,
             node: None,
             light_group: None,
+            lights_only: None,
+            lights_all_but: None,
         }))
     }
 
@@ -161,6 +163,8 @@ impl Converter<'_> {
             interpolation: None,
             node: None,
             light_group: None,
+            lights_only: None,
+            lights_all_but: None,
         }))
     }
 
@@ -177,6 +181,8 @@ impl Converter<'_> {
             interpolation: None,
             node: None,
             light_group: None,
+            lights_only: None,
+            lights_all_but: None,
         }))
     }
 

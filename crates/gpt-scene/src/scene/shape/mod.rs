@@ -11,11 +11,13 @@ mod plane;
 mod rectangle;
 mod sphere;
 
+use std::fmt;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::check::{Check, within_range};
+use super::light_links::ReceiverId;
 use super::material::MaterialId;
 use super::motion::{Motion, MotionStep};
 use super::transform::Transform;
@@ -118,7 +120,7 @@ impl Geometry {
 }
 
 /// One surface: geometry in its own space, where it stands, and what it is made of.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Shape {
     /// How errors and reports call it: its type and place in the file, or an object's name.
     pub label: String,
@@ -132,6 +134,22 @@ pub struct Shape {
     /// Directions to the environment are sampled through this shape as if it were a light. Only faces of a `pass` material let them
     /// through; those that emit are lights anyway.
     pub portal: bool,
+    /// The group of receivers that it belongs to.
+    pub receiver: ReceiverId,
+}
+
+/// Prints a receiver where it is one of its own: fingerprints of scenes without light links stay as they are.
+impl fmt::Debug for Shape {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { label, geometry, material, transform, motion, portal, receiver } = self;
+        let mut fields = formatter.debug_struct("Shape");
+        fields.field("label", label).field("geometry", geometry).field("material", material);
+        fields.field("transform", transform).field("motion", motion).field("portal", portal);
+        if *receiver != 0 {
+            fields.field("receiver", receiver);
+        }
+        fields.finish()
+    }
 }
 
 impl Shape {

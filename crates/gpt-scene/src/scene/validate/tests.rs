@@ -49,7 +49,7 @@ fn coat_normals(scene: &mut Scene, texture: usize, scale: f64) {
 }
 
 fn shape(label: &str, geometry: Geometry, material: MaterialId) -> Shape {
-    Shape { label: label.into(), geometry, material, transform: Transform::default(), motion: None, portal: false }
+    Shape { label: label.into(), geometry, material, transform: Transform::default(), motion: None, portal: false, receiver: 0 }
 }
 
 fn pixels(width: u32, height: u32) -> Arc<ImageData> {

@@ -142,6 +142,7 @@ fn placed(mesh: Mesh, map: &DAffine3) -> Mesh {
         transform: Transform { steps: vec![TransformStep::Matrix(*map)] },
         motion: None,
         portal: false,
+        receiver: 0,
     };
     Mesh { positions: own.world_positions(), normals: own.world_normals(), faces: own.world_faces(), ..mesh }
 }

@@ -37,6 +37,7 @@ use crate::scene::{LightProfile, MaterialId, Scene};
 /// in the folder `NAME.files`. `name` is how reports call the scene.
 pub fn as_gltf(scene: &Scene, name: &str, target: &Path) -> WrittenScene {
     let mut losses = Losses::of(name);
+    losses.drop_links(scene);
     let scene = &with_flat_camera(scene, &mut losses, |_| false);
     let scene = &with_media_below_surfaces(scene);
     let mut writer = Writer {

@@ -33,6 +33,7 @@ use crate::spectrum::Spectrum;
 /// None that is known: what cannot be said there is in the report.
 pub fn as_mitsuba(scene: &Scene, name: &str, target: &Path) -> Result<WrittenScene, SceneError> {
     let mut losses = Losses::of(name);
+    losses.drop_links(scene);
     let scene = &*with_flat_camera(scene, &mut losses, |_| false);
     let (text, files) = scene_text(scene, target, false);
     let tables: Table = text.parse().map_err(|error: toml::de::Error| SceneError::in_file(name, error.message().to_owned()))?;

@@ -37,6 +37,7 @@ use crate::scene::{Material, MaterialId, Projection, Scene};
 /// is how reports call the scene.
 pub fn as_pbrt(scene: &Scene, name: &str, target: &Path) -> WrittenScene {
     let mut losses = Losses::of(name);
+    losses.drop_links(scene);
     let has = |projection: &Projection| matches!(projection, Projection::Equirectangular(model) if model.is_full());
     let scene = &with_flat_camera(scene, &mut losses, has);
     let scene = &with_media_below_surfaces(scene);

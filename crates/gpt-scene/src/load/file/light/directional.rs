@@ -8,6 +8,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{DirectionalKeyEntry, InterpolationName, WrittenLightTrack};
 use crate::load::file::light_group::LightGroupName;
+use crate::load::file::light_link::ReceiverNames;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Vector};
 use crate::load::file::writer::{Writer, colour, direction, line};
@@ -32,6 +33,10 @@ pub struct Keys {
     pub node: Option<Located<String>>,
     /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
     pub light_group: Option<Located<LightGroupName>>,
+    /// The receivers that the light lights, by the names that objects give them (`receiver`); all when left out.
+    pub lights_only: Option<ReceiverNames>,
+    /// In place of `lights_only`: the receivers that the light does not light.
+    pub lights_all_but: Option<ReceiverNames>,
 }
 
 impl LightKeys for Keys {

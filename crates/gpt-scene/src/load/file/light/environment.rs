@@ -13,6 +13,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{EnvironmentKeyEntry, InterpolationName, WrittenLightTrack};
 use crate::load::file::light_group::LightGroupName;
+use crate::load::file::light_link::ReceiverNames;
 use crate::load::file::reference::FileOr;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::shape::TransformEntry;
@@ -54,6 +55,10 @@ pub struct Keys {
     pub interpolation: Option<Located<InterpolationName>>,
     /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
     pub light_group: Option<Located<LightGroupName>>,
+    /// The receivers that the light lights, by the names that objects give them (`receiver`); all when left out.
+    pub lights_only: Option<ReceiverNames>,
+    /// In place of `lights_only`: the receivers that the light does not light.
+    pub lights_all_but: Option<ReceiverNames>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -181,6 +186,8 @@ impl Keys {
             keyframes: None,
             interpolation: None,
             light_group: None,
+            lights_only: None,
+            lights_all_but: None,
         }
     }
 

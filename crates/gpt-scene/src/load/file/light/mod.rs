@@ -17,6 +17,7 @@ use serde::Deserialize;
 
 use self::keys::LightKeys;
 use super::light_group::LightGroupName;
+use super::light_link::WrittenLink;
 use super::reference::TextureName;
 use super::resolver::Resolver;
 use super::value::Located;
@@ -25,6 +26,7 @@ use crate::load::error::SceneError;
 use crate::scene::Light;
 use crate::scene::animation::LightTrack;
 use crate::scene::light::light_table;
+use crate::scene::light_links::LinkMask;
 
 /// The entries of a scene file, by the rows of the table of lights.
 macro_rules! entries {
@@ -49,6 +51,11 @@ macro_rules! entries {
             /// The group that its light is in.
             fn light_group(&self) -> Option<&Located<LightGroupName>> {
                 match self { $($(Self::$variant(keys) => keys.light_group.as_ref(),)*)* }
+            }
+
+            /// The keys that say what it lights.
+            fn link(&self) -> WrittenLink<'_> {
+                match self { $($(Self::$variant(keys) => WrittenLink { only: keys.lights_only.as_ref(), all_but: keys.lights_all_but.as_ref() },)*)* }
             }
         }
 
@@ -138,8 +145,11 @@ impl Resolver<'_> {
             let sun = light.as_ref().and_then(|light| entry.value.sun(self, light));
             let group = self.light_group(entry.value.light_group());
             let group = self.note(group).unwrap_or(0);
+            let link = self.link_mask(entry.value.link());
+            let link = self.note(link).unwrap_or(LinkMask::ALL);
             for light in light.into_iter().chain(sun) {
                 self.scene.light_groups.put_light(self.scene.lights.len(), group);
+                self.scene.light_links.put_light(self.scene.lights.len(), link);
                 self.scene.lights.push(light);
             }
         }

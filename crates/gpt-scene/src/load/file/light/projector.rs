@@ -8,6 +8,7 @@ use super::spot::up_across;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::light_group::LightGroupName;
+use crate::load::file::light_link::ReceiverNames;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, FieldOfView, Located, NonNegative, Positive, Vector, vector};
@@ -34,6 +35,10 @@ pub struct Keys {
     pub texture: Option<Located<TextureName>>,
     /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
     pub light_group: Option<Located<LightGroupName>>,
+    /// The receivers that the light lights, by the names that objects give them (`receiver`); all when left out.
+    pub lights_only: Option<ReceiverNames>,
+    /// In place of `lights_only`: the receivers that the light does not light.
+    pub lights_all_but: Option<ReceiverNames>,
 }
 
 impl LightKeys for Keys {

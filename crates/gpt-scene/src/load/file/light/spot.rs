@@ -10,6 +10,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{InterpolationName, SpotKeyEntry, WrittenLightTrack};
 use crate::load::file::light_group::LightGroupName;
+use crate::load::file::light_link::ReceiverNames;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
@@ -50,6 +51,10 @@ pub struct Keys {
     pub node: Option<Located<String>>,
     /// The light group in which `--aov groups` keeps its light apart; "rest" when left out.
     pub light_group: Option<Located<LightGroupName>>,
+    /// The receivers that the light lights, by the names that objects give them (`receiver`); all when left out.
+    pub lights_only: Option<ReceiverNames>,
+    /// In place of `lights_only`: the receivers that the light does not light.
+    pub lights_all_but: Option<ReceiverNames>,
 }
 
 /// How a spot light's intensity falls between its angles.

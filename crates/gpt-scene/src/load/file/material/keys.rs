@@ -5,6 +5,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::keyframes::InterpolationName;
 use crate::load::file::light_group::LightGroupName;
+use crate::load::file::light_link::WrittenLink;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative, Number};
@@ -101,6 +102,7 @@ pub struct CommonKeys<'a> {
     pub two_sided: Option<&'a Located<bool>>,
     pub interior: Option<&'a Located<String>>,
     pub light_group: Option<&'a Located<LightGroupName>>,
+    pub link: WrittenLink<'a>,
 }
 
 /// Mutable references to the common keys.
@@ -162,6 +164,10 @@ macro_rules! material_keys {
             pub interior: Option<$crate::load::file::value::Located<String>>,
             /// The light group in which `--aov groups` keeps the material's emission apart; "rest" when left out.
             pub light_group: Option<$crate::load::file::value::Located<$crate::load::file::light_group::LightGroupName>>,
+            /// The receivers that surfaces of the material light, by the names that objects give them (`receiver`); all when left out.
+            pub lights_only: Option<$crate::load::file::light_link::ReceiverNames>,
+            /// In place of `lights_only`: the receivers that surfaces of the material do not light.
+            pub lights_all_but: Option<$crate::load::file::light_link::ReceiverNames>,
             /// Keys of the material's own type, and `emission`, at frames (`--frame`, `--frames`, `--time`); without a frame the other keys hold.
             #[schemars(extend("minItems" = 1))]
             pub keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<Keyframe>>>>,
@@ -240,6 +246,10 @@ macro_rules! material_keys {
                     two_sided: self.two_sided.as_ref(),
                     interior: self.interior.as_ref(),
                     light_group: self.light_group.as_ref(),
+                    link: $crate::load::file::light_link::WrittenLink {
+                        only: self.lights_only.as_ref(),
+                        all_but: self.lights_all_but.as_ref(),
+                    },
                 }
             }
 

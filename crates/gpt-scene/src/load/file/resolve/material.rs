@@ -7,6 +7,7 @@ use crate::load::file::material::MaterialEntry;
 use crate::load::file::reference::TextureName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
+use crate::scene::light_links::LinkMask;
 use crate::scene::{BlendWeight, Material, MaterialKind, Relief, Texture, TextureId, TextureKind, check_blends};
 
 /// Help where a material without emission names a light group.
@@ -37,6 +38,9 @@ impl Resolver<'_> {
             let group = self.light_group_of(written, emits, help);
             let group = self.note(group).unwrap_or(0);
             self.scene.light_groups.put_material(id, group);
+            let link = self.link_of_material(entry);
+            let link = self.note(link).unwrap_or(LinkMask::ALL);
+            self.scene.light_links.put_material(id, link);
             let track = entry.track(id, self);
             if let Some(Some(track)) = self.note(track) {
                 Arc::make_mut(&mut self.scene.animation).materials.push(track);
@@ -47,12 +51,25 @@ impl Resolver<'_> {
             return Ok(());
         }
         // Materials stand in the order of their entries, and behind them what some of those are made of.
-        check_blends(&self.scene.materials).map_err(|(id, message)| {
+        check_blends(&self.scene.materials).and_then(|()| self.scene.check_links_of_blends()).map_err(|(id, message)| {
             let entry = id.checked_sub(written.len()).map_or(id, |behind| of_entry[behind]);
             self.error(&written[entry].common().name.place, message)
         })?;
         // Checks of parts follow blends to their ends.
         written.iter().try_for_each(|entry| entry.check_parts(self))
+    }
+
+    /// The mask of what surfaces of a material light, which has to give light itself, or by a part.
+    fn link_of_material(&mut self, entry: &MaterialEntry) -> Result<LinkMask, SceneError> {
+        let link = entry.common().link;
+        if let Some(written) = link.only.or(link.all_but)
+            && !entry.gives_light()
+            && entry.parts().is_empty()
+        {
+            let message = format!("`lights_only` and `lights_all_but` are of what gives light: {NO_EMISSION}");
+            return Err(self.error(&written.place, message));
+        }
+        self.link_mask(link)
     }
 
     /// Makes each material with an opacity a blend of what it was and of nothing. Which entry each material belongs to that is added for it.

@@ -16,6 +16,9 @@ impl Resolver<'_> {
                 self.light_group_of(entry.light_group.as_ref(), entry.emission.is_some(), "this medium has no `emission`");
             let group = self.note(group).unwrap_or(0);
             self.scene.light_groups.put_medium(self.scene.media.len(), group);
+            let receiver = self.receiver(entry.receiver.as_ref());
+            let receiver = self.note(receiver).unwrap_or(0);
+            self.scene.light_links.put_medium(self.scene.media.len(), receiver);
             self.scene.media.extend(medium);
         }
         // A medium that is wrong has no number, so that names behind it would mean others.

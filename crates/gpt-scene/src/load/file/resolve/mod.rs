@@ -54,6 +54,7 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
         resolver.instances(&file.instance, &names, &groups);
     }
     resolver.lights(&file.light);
+    resolver.check_linked_receivers();
     resolver.meters(&file.meter);
     resolver.finish()
 }

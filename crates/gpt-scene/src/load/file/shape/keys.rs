@@ -3,6 +3,7 @@
 use super::transform::TransformEntry;
 use crate::load::error::SceneError;
 use crate::load::file::keyframes::WrittenTrack;
+use crate::load::file::light_link::ReceiverName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
 use crate::load::file::writer::Writer;
@@ -62,6 +63,8 @@ macro_rules! shape_keys {
             /// material is of type `pass`; a surface that emits is sampled as a light in any case.
             #[serde(default)]
             pub portal: bool,
+            /// The group of receivers that the shape belongs to, which lamps name in `lights_only` and `lights_all_but`; "rest" when left out.
+            pub receiver: Option<$crate::load::file::value::Located<$crate::load::file::light_link::ReceiverName>>,
         }
 
         impl Keys {
@@ -71,6 +74,7 @@ macro_rules! shape_keys {
                     transform: &mut self.transform,
                     motion: &mut self.motion,
                     node: &mut self.node,
+                    receiver: &mut self.receiver,
                 }
             }
 
@@ -80,6 +84,7 @@ macro_rules! shape_keys {
                     transform: self.transform.as_ref(),
                     motion: self.motion.as_ref(),
                     portal: self.portal,
+                    receiver: self.receiver.as_ref(),
                     track: $crate::load::file::keyframes::WrittenTrack {
                         keyframes: self.keyframes.as_ref(),
                         interpolation: self.interpolation.as_ref(),
@@ -105,6 +110,7 @@ macro_rules! plain_keys {
             interpolation: None,
             node: None,
             portal: false,
+            receiver: None,
         }
     };
 }
@@ -116,6 +122,7 @@ pub struct CommonKeys<'a> {
     pub transform: Option<&'a Located<TransformEntry>>,
     pub motion: Option<&'a Located<TransformEntry>>,
     pub portal: bool,
+    pub receiver: Option<&'a Located<ReceiverName>>,
     pub track: WrittenTrack<'a>,
 }
 
@@ -125,6 +132,7 @@ pub struct CommonKeysMut<'a> {
     pub transform: &'a mut Option<Located<TransformEntry>>,
     pub motion: &'a mut Option<Located<TransformEntry>>,
     pub node: &'a mut Option<Located<String>>,
+    pub receiver: &'a mut Option<Located<ReceiverName>>,
 }
 
 /// A shape whose geometry is about to be resolved.

@@ -138,7 +138,8 @@ impl Resolver<'_> {
             return Err(self.error(&written.place, geometry.stays_round()).with_help(help));
         }
         let label = format!("shape[{index}] ({})", geometry.kind_name());
-        let shape = Shape { label, geometry, material, transform, motion, portal: common.portal };
+        let receiver = self.receiver(common.receiver)?;
+        let shape = Shape { label, geometry, material, transform, motion, portal: common.portal, receiver };
         let place = common.transform.map_or(&entry.place, |written| &written.place);
         shape.check_place().map_err(|message| self.error(place, message))?;
         common.motion.map_or(Ok(()), |written| self.check_motion(written, &shape))?;

@@ -91,7 +91,10 @@ fn file() -> Value {
     json!({
         "asset": { "version": "2.0", "minVersion": "2.0" },
         "scene": 0,
-        "scenes": [{ "nodes": [0, 1, 2, 3, 6, 8, 9] }, { "nodes": [0, 1] }],
+        "scenes": [
+            { "nodes": [0, 1, 2, 3, 6, 8, 9], "extensions": { "EXT_lights_image_based": { "light": 0 } } },
+            { "nodes": [0, 1] },
+        ],
         "nodes": [
             { "mesh": 0, "translation": [0.0, 0.0, 0.5], "children": [7],
                 "extensions": { "KHR_node_visibility": { "visible": true } } },
@@ -134,7 +137,12 @@ fn file() -> Value {
             { "normalTexture": texture(1), "alphaMode": "MASK", "alphaCutoff": 0.4, "doubleSided": true,
               "pbrMetallicRoughness": { "baseColorTexture": texture(2) } }],
         "textures": [{ "source": 0, "sampler": 0 }, { "source": 1 }, { "extensions": { "EXT_texture_webp": { "source": 0 } } }],
-        "images": [{ "uri": uri(&picture([9, 99, 199, 255])) }, { "bufferView": 14, "mimeType": "image/png" }],
+        "images": [
+            { "uri": uri(&picture([9, 99, 199, 255])) },
+            { "bufferView": 14, "mimeType": "image/png" },
+            { "uri": uri(&square([40, 50, 60, 200])) },
+            { "uri": uri(&square([60, 50, 40, 255])) },
+        ],
         "samplers": [{ "magFilter": 9729, "minFilter": 9729, "wrapS": 10497, "wrapT": 10497 }],
         "skins": [{ "joints": [4, 5], "inverseBindMatrices": 8 }],
         "animations": [{ "channels": [{ "sampler": 0, "target": { "node": 9, "path": "translation" } }],
@@ -145,14 +153,28 @@ fn file() -> Value {
         "extensions": {
             "KHR_lights_punctual": { "lights": [spot, light("point")] },
             "EXT_lights_ies": { "lights": [{ "uri": uri(&[1, 2]) }, { "bufferView": 14, "mimeType": "application/x-ies-lm-63" }] },
+            "EXT_lights_image_based": { "lights": [
+                { "intensity": 2.0, "rotation": [0.0, 0.6, 0.0, 0.8], "irradianceCoefficients": vec![[0.5; 3]; 9],
+                    "specularImages": [[2, 2, 2, 2, 2, 2]], "specularImageSize": 2 },
+                { "irradianceCoefficients": vec![[0.5; 3]; 9], "specularImages": [[]], "specularImageSize": 2 },
+            ] },
             "KHR_materials_variants": { "variants": [{ "name": "shown" }, { "name": "other" }] },
         },
     })
 }
 
 fn picture(pixel: [u8; 4]) -> Vec<u8> {
-    let picture =
-        image::RgbaImage::from_fn(3, 2, |x, y| image::Rgba(pixel.map(|value| value.wrapping_add((17 * x + 31 * y) as u8))));
+    of_size(3, 2, pixel)
+}
+
+fn square(pixel: [u8; 4]) -> Vec<u8> {
+    of_size(2, 2, pixel)
+}
+
+fn of_size(width: u32, height: u32, pixel: [u8; 4]) -> Vec<u8> {
+    let picture = image::RgbaImage::from_fn(width, height, |x, y| {
+        image::Rgba(pixel.map(|value| value.wrapping_add((17 * x + 31 * y) as u8)))
+    });
     let mut bytes = std::io::Cursor::new(Vec::new());
     picture.write_to(&mut bytes, image::ImageFormat::Png).expect("it is written");
     bytes.into_inner()
@@ -226,6 +248,31 @@ fn rows() -> Vec<Row> {
             "/extensions/EXT_lights_ies/lights/1/bufferView",
             json!([null, 0, 77]),
             &[("/nodes/2/extensions/EXT_lights_ies/light", "1")],
+        ),
+        Row("LIGHT_OF_SCENE.light", "/scenes/0/extensions/EXT_lights_image_based/light", json!([1, 7, null]), &[]),
+        Row(
+            "IMAGE_LIGHT.rotation",
+            "/extensions/EXT_lights_image_based/lights/0/rotation",
+            json!([null, [0.0, 0.0, 0.0, 0.0], [1.0]]),
+            &[],
+        ),
+        Row(
+            "IMAGE_LIGHT.intensity",
+            "/extensions/EXT_lights_image_based/lights/0/intensity",
+            json!([null, -1.0, 0.0, 1.0, "2"]),
+            &[],
+        ),
+        Row(
+            "IMAGE_LIGHT.irradianceCoefficients",
+            "/extensions/EXT_lights_image_based/lights/1/irradianceCoefficients",
+            json!([null, [], [[1.0, 1.0, 1.0]]]),
+            &[("/scenes/0/extensions/EXT_lights_image_based/light", "1")],
+        ),
+        Row(
+            "IMAGE_LIGHT.specularImages",
+            "/extensions/EXT_lights_image_based/lights/0/specularImages",
+            json!([null, [[2, 2, 2, 2, 2, 3]], [[2, 2, 2, 2, 2, 0]], [[2, 2, 2, 2, 2, 77]], [[2, 2, 2, 2, 2, 2], []]]),
+            &[],
         ),
         Row("VISIBILITY.visible", "/nodes/0/extensions/KHR_node_visibility/visible", json!([false]), &[]),
         Row("MESH.weights", "/meshes/3/weights", json!([[0.0], [1.0], [-2.0], null]), &[]),
