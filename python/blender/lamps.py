@@ -19,8 +19,13 @@ SUN_DISTANCE = 3000
 """Distance of a sun's disk in radii of the scene: seen from its ends, the disk is 0.04 degrees apart."""
 
 
-def export(instance, file, report, scene_sphere, graph):
-    """Adds a lamp. `scene_sphere` is the middle and the radius of a sphere about all else."""
+def has_light(thing):
+    """True of a lamp, not of a mesh that glows."""
+    return thing.type == "LIGHT"
+
+
+def export(instance, file, report, scene_sphere, graph, links):
+    """Adds a lamp. `scene_sphere` is the middle and the radius of a sphere about all else; `links` says what lamps light."""
     lamp_object = instance.object
     lamp = lamp_object.data
     where = f"lamp {lamp_object.name}"
@@ -33,6 +38,10 @@ def export(instance, file, report, scene_sphere, graph):
     directions = axes / numpy.where(lengths > 0, lengths, 1)
     position = matrix[:3, 3]
     _unsaid(lamp_object, lamp, where, report)
+    linked = links.of_lamp(lamp_object, report)
+    if linked is None:
+        return
+    lights, materials = len(file.lights), len(file.materials)
     hidden = not lamp_object.visible_camera
     if lamp.type == "POINT":
         _point(lamp, power, position, hidden, where, file, report)
@@ -44,6 +53,9 @@ def export(instance, file, report, scene_sphere, graph):
         _sun(lamp, power, directions, hidden, where, file, scene_sphere)
     else:
         report.add(where, f"a lamp of the type {lamp.type}", "left out")
+    # The last material added is that of the lamp's surface, a blend behind its parts.
+    for entry in [*file.lights[lights:], *file.materials[max(materials, len(file.materials) - 1):]]:
+        entry.update(linked)
 
 
 def _power(lamp, where, report, graph):
@@ -71,8 +83,8 @@ def _unsaid(lamp_object, lamp, where, report):
     if getattr(lamp.cycles, "is_portal", False):
         report.add(where, "a portal", "a lamp")
     linking = getattr(lamp_object, "light_linking", None)
-    if linking and (linking.receiver_collection or linking.blocker_collection):
-        report.add(where, "light linking", "it shines on everything")
+    if linking and linking.blocker_collection:
+        report.add(where, "shadow linking", "everything throws shadows of it")
 
 
 COVER = 1 / 256

@@ -120,11 +120,13 @@ class Meshes:
         self._file, self._materials, self._report = file, materials, report
         self._used = {}
 
-    def add(self, instance, key):
-        """Adds a visible object. Places with the same key show the same mesh and materials. True if it has triangles."""
+    def add(self, instance, key, receiver):
+        """Adds a visible object. Places with the same key show the same mesh and materials; `receiver` is the name of its group of
+        receivers, or None. True if it has triangles."""
         if key not in self._used:
             self._used[key] = self._prepare(instance.object)
-        shape, places = self._used[key]
+        shape, by_receiver = self._used[key]
+        places = by_receiver.setdefault(receiver, [])
         if shape is not None:
             places.append(TO_Y_UP @ numpy.array(instance.matrix_world))
         return shape is not None
@@ -133,8 +135,8 @@ class Meshes:
         mesh = evaluated.to_mesh()
         try:
             if mesh is None or not len(mesh.polygons):
-                return None, []
-            return self._shape(evaluated, mesh), []
+                return None, {}
+            return self._shape(evaluated, mesh), {}
         finally:
             evaluated.to_mesh_clear()
 
@@ -181,15 +183,19 @@ class Meshes:
             self._report.add(where, "a shadow catcher or holdout", "an ordinary surface")
 
     def write(self):
-        for shape, places in self._used.values():
+        for shape, by_receiver in self._used.values():
             if shape is None:
                 continue
-            if len(places) == 1:
-                self._file.shapes.append({**shape["shape"], "transform": steps(places[0])})
-                continue
-            name = self._file.new_name("group", shape["name"])
-            self._file.groups.append({"name": name, "shape": [shape["shape"]]})
-            self._file.instances.append({"group": name, "places": [[float(x) for x in place[:3].ravel()] for place in places]})
+            group = None
+            for receiver, places in by_receiver.items():
+                said = {"receiver": receiver} if receiver else {}
+                if len(places) == 1 and len(by_receiver) == 1:
+                    self._file.shapes.append({**shape["shape"], "transform": steps(places[0]), **said})
+                    continue
+                if group is None:
+                    group = self._file.new_name("group", shape["name"])
+                    self._file.groups.append({"name": group, "shape": [shape["shape"]]})
+                self._file.instances.append({"group": group, "places": [[float(x) for x in place[:3].ravel()] for place in places], **said})
 
 
 def _generated(original, found):

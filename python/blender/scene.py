@@ -3,6 +3,7 @@
 import numpy
 
 from . import camera, engine, lamps, settings, world
+from .links import Links
 from .materials import Materials
 from .meshes import Meshes
 from .report import Report
@@ -37,6 +38,7 @@ def export(scene, path):
 def _objects(scene, depsgraph, file, report):
     evaluated_camera = scene.camera.evaluated_get(depsgraph)
     camera.export(scene, evaluated_camera, file, report)
+    links = Links(scene, report)
     found = Meshes(file, Materials(file, report), report)
     waiting, corners = [], []
     for instance in depsgraph.object_instances:
@@ -46,7 +48,7 @@ def _objects(scene, depsgraph, file, report):
         if thing.type == "LIGHT":
             waiting.append(_Kept(thing, numpy.array(instance.matrix_world)))
         elif thing.type in SURFACES:
-            if found.add(instance, _key(thing)):
+            if found.add(instance, _key(thing), links.receiver(thing)):
                 box = numpy.array([[*corner, 1] for corner in thing.bound_box])
                 corners.append((box @ numpy.array(instance.matrix_world).T)[:, :3])
         elif thing.type not in SILENT:
@@ -59,7 +61,7 @@ def _objects(scene, depsgraph, file, report):
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
     sphere = middle, float(numpy.linalg.norm(corners - middle, axis=1).max())
     for lamp in waiting:
-        lamps.export(lamp, file, report, sphere, lamp_factor(report))
+        lamps.export(lamp, file, report, sphere, lamp_factor(report), links)
 
 
 class _Kept:

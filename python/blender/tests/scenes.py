@@ -485,6 +485,28 @@ def sky():
     return scene
 
 
-FURTHER = (parallel, fisheye, brushed, sky)
+def linked():
+    """Lamps that light one ball, all but another one that shares its mesh, and everything."""
+    scene = empty()
+    floor()
+    left = ball("Left", simple("Clay", "BsdfDiffuse", Color=(0.7, 0.5, 0.4)), (-2, 0, 0.7))
+    right = left.copy()
+    right.name, right.location = "Right", (0, 0, 0.7)
+    bpy.context.collection.objects.link(right)
+    ball("Mirror", simple("Mirror", "BsdfAnisotropic", {"distribution": "GGX"}, Color=(0.9, 0.9, 0.9), Roughness=0.3), (2, 0, 0.7))
+    key = lamp("POINT", 300, (-1, -3, 4), shadow_soft_size=0.3, use_soft_falloff=False)
+    wash = lamp("AREA", 150, (2, -2, 4), rotation=(0.5, 0.3, 0), size=1.0)
+    lamp("SUN", 0.3, (0, 0, 9), rotation=(0.3, -0.4, 0), angle=0.2)
+    for owner, things, state in ((key, [left], "INCLUDE"), (wash, [right], "EXCLUDE")):
+        collection = bpy.data.collections.new(f"Receivers of {owner.name}")
+        for thing in things:
+            collection.objects.link(thing)
+            collection.collection_objects[-1].light_linking.link_state = state
+        owner.light_linking.receiver_collection = collection
+    camera(location=(0, -8, 3), rotation=(1.24, 0, 0), lens=40)
+    return scene
+
+
+FURTHER = (parallel, fisheye, brushed, sky, linked)
 
 SCENES = (sharp_lamps, soft_lamps, world_map, lenses, panoramas, metals, principled, glass, trees, textures, places)

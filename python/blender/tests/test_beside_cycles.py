@@ -68,6 +68,7 @@ FAULTS = {
     "parallel": lambda: camera_key("height", lambda height: 1.02 * height),
     "fisheye": lambda: camera_key("fov", lambda fov: 1.02 * fov),
     "brushed": lambda: changed("meshes", "uv_of", lambda uvs: uvs[:, ::-1]),
+    "linked": lambda: changed("links", "_is_lit", lambda _: True),
     "sky": lambda: changed("engine", "bake_world", lambda pixels: pixels[:, ::-1]),
 }
 

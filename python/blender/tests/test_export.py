@@ -175,6 +175,25 @@ class Objects(Case):
         with open(self.path, encoding="utf-8") as file:
             self.assertNotIn("Hidden", file.read())
 
+    def test_lamps_light_the_objects_that_they_are_linked_to(self):
+        scenes.linked()
+        found = self.exported(bpy.context.scene)
+        self.assertEqual([str(line) for line in self.report.lines], [])
+        # Two balls share a mesh, each with a receiver of its own; all else is `rest`.
+        groups = [instance.get("receiver") for instance in found["instance"]]
+        self.assertEqual(sorted(groups), ["linked_1", "linked_2"])
+        self.assertEqual([shape.get("receiver") for shape in found["shape"] if shape["type"] == "mesh"], [None, None])
+        lit = {tuple(material["lights_only"]) for material in found["material"] if "lights_only" in material}
+        self.assertEqual(len(lit), 2)
+        self.assertTrue(any(len(names) == 1 and names[0] != "rest" for names in lit), lit)
+        self.assertTrue(any(len(names) == 2 and "rest" in names for names in lit), lit)
+        # The control: without a collection nothing is said.
+        for lamp in bpy.context.scene.objects:
+            lamp.light_linking.receiver_collection = None
+        found = self.exported(bpy.context.scene)
+        self.assertFalse(any("lights_only" in material for material in found["material"]))
+        self.assertFalse(any("receiver" in entry for entry in found["shape"] + found["instance"]))
+
     def test_an_object_hidden_from_the_camera_is_passed_by_it_alone(self):
         scene = scenes.empty()
         scenes.floor().visible_camera = False
