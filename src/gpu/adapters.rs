@@ -1,35 +1,14 @@
 //! Which graphics adapters there are, and which one renders.
 
 use serde::Serialize;
-use wgpu::{
-    Adapter, AdapterInfo, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, InstanceFlags, TextureFormat,
-};
+use wgpu::{Adapter, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, InstanceFlags, TextureFormat};
 
 use super::limits::driver_identity;
+use super::software_drivers;
 use crate::renderer::{DeviceChoice, RenderError};
 
 /// The interfaces worth asking: the ones whose compute shaders meet WebGPU. OpenGL is left out on purpose.
 const BACKENDS: Backends = Backends::VULKAN.union(Backends::METAL).union(Backends::DX12);
-
-/// Lanes of a software adapter's vectors. Lavapipe makes wider ones only where it is told to, and Mesa 25.0.7 then computes half of the
-/// lanes' paths wrong, without a word.
-const MOST_SOFTWARE_LANES: u32 = 8;
-
-/// The oldest release of Mesa whose software driver renders. Those of 22.3.6 and 24.0.5 end all loops of an invocation, without a word, when they
-/// have gone round 65,535 times together; a kernel that takes one pixel after the other goes round more often, and loses samples. Those of 25.0.7
-/// and 25.2.8 lose none.
-const OLDEST_SOFTWARE_MESA: u32 = 25;
-
-/// The first release of Mesa, with its minor number, whose software driver loads for all lanes of a vector by one gather; older ones load lane by
-/// lane. Measured with 25.2.8 and 26.2.6 against 25.0.7 (docs/notes/2026-11-29-drivers.md).
-const FIRST_MESA_WITH_GATHERS: [u32; 2] = [25, 1];
-
-/// Advice for a software driver without gathers (docs/notes/2026-11-29-drivers.md).
-const NEWER_MESA: &str = "Mesa 25.1 and newer render large scenes in 0.7 to 0.9 of the time (Debian 13: from trixie-backports, Ubuntu 24.04: from noble-updates)";
-
-/// The software driver that browsers bring along. Its compiler took 223 s for the kernel of a model of 7,000 triangles; for that of `cornell` it took
-/// 20 GiB of memory and had not ended.
-const SWIFTSHADER: &str = "SwiftShader";
 
 /// Facts about an adapter that a person wants to know before trusting it with a scene. Sizes are in bytes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -62,7 +41,7 @@ pub struct AdapterSummary {
     pub ray_queries: bool,
     /// The reason why the renderer cannot use the adapter; `auto` passes it over.
     pub unusable: Option<String>,
-    /// What its user could do to render faster.
+    /// A way to render faster that its user has.
     pub advice: Option<&'static str>,
 }
 
@@ -179,46 +158,7 @@ fn obstacle(adapter: &Adapter) -> Option<String> {
     if !adapter.get_downlevel_capabilities().is_webgpu_compliant() {
         return Some("does not meet the WebGPU standard".to_owned());
     }
-    let info = adapter.get_info();
-    if info.device_type != DeviceType::Cpu {
-        return None;
-    }
-    if let Some(release) =
-        mesa_release(&info.driver_info).map(|[major, _]| major).filter(|&release| release < OLDEST_SOFTWARE_MESA)
-    {
-        return Some(format!(
-            "loses samples of pictures in Mesa {release}; it takes Mesa {OLDEST_SOFTWARE_MESA} or newer \
-             (Debian 12: from bookworm-backports, Ubuntu 24.04: from noble-updates)"
-        ));
-    }
-    if name_contains(&info.name, SWIFTSHADER) {
-        return Some(
-            "takes minutes and 20 GiB of memory to compile a kernel; Mesa's lavapipe takes a fraction of a second".to_owned(),
-        );
-    }
-    (info.subgroup_min_size > MOST_SOFTWARE_LANES).then(|| {
-        format!(
-            "leaves parts of pictures black with vectors of {} lanes; unset LP_NATIVE_VECTOR_WIDTH or set it to 256",
-            info.subgroup_min_size
-        )
-    })
-}
-
-/// The first two numbers of Mesa's version, as drivers tell it: `Mesa 24.0.5-1ubuntu1 (LLVM 17.0.6)` is 24 and 0.
-fn mesa_release(driver_info: &str) -> Option<[u32; 2]> {
-    let mut numbers = driver_info.split_once("Mesa ")?.1.split(|letter: char| !letter.is_ascii_digit()).map(str::parse);
-    Some([numbers.next()?.ok()?, numbers.next()?.ok()?])
-}
-
-fn advice(info: &AdapterInfo) -> Option<&'static str> {
-    let is_lavapipe = info.device_type == DeviceType::Cpu && mesa_release(&info.driver_info).is_some();
-    (is_lavapipe && !gathers(info)).then_some(NEWER_MESA)
-}
-
-/// Says that a software driver loads for all lanes of a vector at once, wherever their addresses lie.
-pub fn gathers(info: &AdapterInfo) -> bool {
-    info.device_type == DeviceType::Cpu
-        && mesa_release(&info.driver_info).is_some_and(|release| release >= FIRST_MESA_WITH_GATHERS)
+    software_drivers::obstacle(&adapter.get_info())
 }
 
 fn summarise(adapter: &Adapter) -> AdapterSummary {
@@ -229,7 +169,7 @@ fn summarise(adapter: &Adapter) -> AdapterSummary {
         kind: info.device_type.into(),
         backend: format!("{:?}", info.backend),
         identity: driver_identity(&info),
-        advice: advice(&info),
+        advice: software_drivers::advice(&info),
         driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
         name: info.name,
         chosen_by_auto: false,
@@ -265,16 +205,6 @@ mod tests {
             [DeviceType::Cpu, DeviceType::Other, DeviceType::IntegratedGpu, DeviceType::DiscreteGpu].map(AdapterKind::from);
         kinds.sort();
         assert_eq!(kinds, [AdapterKind::Discrete, AdapterKind::Integrated, AdapterKind::Other, AdapterKind::Software]);
-    }
-
-    #[test]
-    fn the_release_of_mesa_is_read_from_what_drivers_tell() {
-        assert_eq!(mesa_release("Mesa 24.0.5-1ubuntu1 (LLVM 17.0.6)"), Some([24, 0]));
-        assert_eq!(mesa_release("Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)"), Some([25, 0]));
-        assert_eq!(mesa_release("Mesa 25.2.8-0ubuntu0.24.04.5 (LLVM 20.1.2)"), Some([25, 2]));
-        assert_eq!(mesa_release("Mesa 26.3.0-devel (git-0123456789)"), Some([26, 3]));
-        assert_eq!(mesa_release("570.133.20"), None);
-        assert!(mesa_release("Mesa 22.3.6 (LLVM 15.0.6)").is_some_and(|[major, _]| major < OLDEST_SOFTWARE_MESA));
     }
 
     #[test]

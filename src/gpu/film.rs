@@ -234,7 +234,7 @@ mod tests {
     use crate::film::count_word;
     use crate::renderer::RenderRequest;
 
-    /// What a band of two rows of three pixels delivers that has so many samples a pixel, where each must have 8.
+    /// Samples that a band of two rows of three pixels delivers which has so many a pixel, where each must have 8.
     fn delivered(counts: [u32; 6], batch: &Batch<'_>) -> Result<Vec<u32>, RenderError> {
         let reached = Reached { first_row: 4, rows: 2, pixels: 6, least: 8, with_counts: false };
         let sums = counts.map(|count| [1.0, 1.0, 1.0, count_word(count)]);

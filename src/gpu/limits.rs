@@ -2,7 +2,7 @@
 
 use wgpu::{Adapter, AdapterInfo, DeviceType, Features, TextureFormat, TextureFormatFeatureFlags};
 
-use super::adapters::gathers;
+use super::software_drivers::gathers;
 use crate::plan::{DeviceLimits, PlanError, PlanOptions, RayQueryDefault, RayQueryLimits};
 
 /// The limits of an adapter that is opened for plans with these options: it has ray queries only where they may be used.

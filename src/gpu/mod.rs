@@ -18,6 +18,7 @@ pub mod pipeline;
 pub mod profile;
 pub mod renderer;
 mod snapshot;
+mod software_drivers;
 pub mod trace;
 
 pub use adapters::{AdapterSummary, list_devices, select_adapter};

@@ -186,7 +186,8 @@ pub(super) fn explain(
     decisions.extend(packed.directions.as_ref().map(|because| Decision::about_directions(!packed.guide.is_empty(), because)));
     let mut add = |about, choice: String, because: String| decisions.push(Decision { about, choice, because });
     if let Some(lanes) = plan.lanes {
-        let because = "this driver loads lane by lane, and packets load once; lavapipe from Mesa 25.1 on needs none".into();
+        let because =
+            "this software driver loads lane by lane, and packets load once; lavapipe from Mesa 25.1 on needs none".into();
         add("lanes", format!("{lanes} samples of one pixel side by side, their rays in packets"), because);
     }
     if plan.stages == StageMode::Wavefront {

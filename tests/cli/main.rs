@@ -381,7 +381,7 @@ fn check_says_what_is_in_the_scene() {
     // Lights chosen as a trial run finds best, and so many light samples, of pictures that are worth one.
     for (scene, because) in [
         ("veach-mis", "cells over 5 lights (a trial run found"),
-        ("workshop", "light samples  2 at each of the first 2 surfaces (a trial run found"),
+        ("bazaar", "light samples  4 at each of the first 2 surfaces (a trial run found"),
         ("scene.toml", "light samples  1 (the render is too short to learn for"),
     ] {
         let report = text(&place.run(&format!("check {scene} --plan")).stdout);

@@ -355,8 +355,8 @@ mod tests {
         assert!(InView::new(&mut area_light(-0.517, 0.391), 64).error(Spectrum::grey(10.0)) < 0.1 * 64.0 * few);
     }
 
-    /// Of many trial runs whose pixels have errors of a long tail, the ratio lies within one standard error of the truth as often as a normal variable
-    /// does, about.
+    /// The ratio lies within one standard error of the truth about as often as a normal variable does, in many trial runs whose pixels have errors of a
+    /// long tail.
     #[test]
     fn the_standard_error_of_a_loss_is_that_of_its_noise() {
         let mut state = 1_u32;
