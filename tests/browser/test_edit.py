@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import time
+import tomllib
 import unittest
 from urllib.parse import urlsplit
 
@@ -110,6 +111,87 @@ class Edit(PageTest):
         self.assertEqual(self.troubles, [])
         origin = urlsplit(self.address).netloc
         self.assertTrue(all(url.startswith(("blob:", "data:")) or urlsplit(url).netloc == origin for url in self.requests), self.requests)
+
+    def camera(self):
+        return self.model()["camera"]
+
+    def drag(self, right, down, **keys):
+        """Drags from the middle of the canvas, in shares of its height, step by step."""
+        box = self.page.locator("#canvas").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        self.page.mouse.move(x, y)
+        self.page.mouse.down(**keys)
+        for step in range(1, 11):
+            self.page.mouse.move(x + right * box["height"] * step / 10, y + down * box["height"] * step / 10)
+        self.page.mouse.up(**keys)
+
+    def test_the_camera_follows_the_mouse_and_is_kept_on_request(self):
+        self.edit()
+        before = self.saved_png()
+        # The control: a drag that does not move the camera moves the picture on the canvas alone.
+        self.drag(0.2, 0.1)
+        self.assertEqual((self.camera()["is_moved"], self.camera()["look"]["position"]), (False, [0, 0, 4]))
+        self.page.click("#look")
+        # Half a turn for the height of the canvas: a quarter of it is 45 degrees, to the left as the scene turns to the right.
+        self.drag(0.25, 0)
+        look = self.camera()["look"]
+        self.assertEqual(look["look_at"], [0, 0, 0])
+        for found, expected in zip(look["position"], (-4 * 0.5**0.5, 0, 4 * 0.5**0.5)):
+            self.assertAlmostEqual(found, expected, delta=0.02)
+        # Down: from above, as far as no camera stands on its head.
+        self.drag(0, 0.25)
+        self.assertGreater(self.camera()["look"]["position"][1], 2.7)
+        self.drag(0, 0.9)
+        x, y, z = self.camera()["look"]["position"]
+        self.assertAlmostEqual((x * x + y * y + z * z) ** 0.5, 4, delta=0.01)
+        self.assertTrue(3.5 < y < 4, y)
+        self.page.click("#back")
+        self.wait("() => !model.camera.is_moved && !isAsking && queue.length === 0")
+        # Aside: a ball of radius 1 at the distance 4 goes by what is seen there, 2 · 4 · tan 20° high.
+        self.page.keyboard.down("Shift")
+        self.drag(0.25, 0)
+        self.page.keyboard.up("Shift")
+        look = self.camera()["look"]
+        self.assertAlmostEqual(look["position"][0], -0.25 * 8 * 0.36397, delta=0.02)
+        self.assertEqual(look["position"][0], look["look_at"][0])
+        self.wait_until_finished()
+        columns = np.argwhere(np.abs(self.saved_png() - before).sum(axis=(0, 2)) > 0)
+        self.assertGreater(columns.size, 20, "the picture follows")
+        self.keep("edit-camera")
+        # Nearer by the wheel, and by keys that turn and go aside too.
+        self.point_at(48, 32)
+        self.page.mouse.wheel(0, -300)
+        self.wait("() => Math.abs(model.camera.look.position[2] - 2) < 0.01 && !isAsking")
+        self.page.locator("#canvas").focus()
+        for key in ("-", "ArrowLeft", "ArrowUp", "Shift+ArrowRight"):
+            place = self.camera()["look"]
+            self.page.keyboard.press(key)
+            self.assertNotEqual(self.camera()["look"], place, key)
+        # The file knows nothing of it until it is kept, and saved.
+        self.assertFalse(self.model()["unsaved"])
+        self.assertEqual(self.scene.read_text(), SCENE)
+        look = self.camera()["look"]
+        self.page.click("#keep")
+        self.wait("() => model.unsaved && !model.camera.is_moved")
+        text = self.saved()
+        kept = tomllib.loads(text)["camera"]
+        self.assertEqual((kept["position"], kept["look_at"], kept["vfov"]), (look["position"], look["look_at"], 40))
+        self.assertIn("radiance = [0.25, 0.5, 1] # bluish", text)
+        self.assertNotIn("up =", text)
+        self.page.keyboard.press("Control+z")
+        self.wait("() => model.camera.look.position[2] === 4")
+        self.page.keyboard.press("c")
+        self.wait("() => document.getElementById('look').getAttribute('aria-pressed') === 'false'")
+        self.assertEqual(self.troubles, [])
+
+    def test_a_camera_that_moves_by_itself_stays(self):
+        self.scene.write_text(SCENE.replace("vfov = 40\n", "vfov = 40\nkeyframes = [{ frame = 0, position = [0, 0, 4] }, { frame = 8, position = [1, 0, 4] }]\n"))
+        self.edit()
+        self.assertTrue(self.page.locator("#look").is_disabled())
+        self.assertIn("keyframes", self.text("place"))
+        self.assertEqual(self.page.evaluate(
+            "async () => (await fetch('look', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ revision: 1, look: { position: [1, 1, 1], look_at: [0, 0, 0], up: [0, 1, 0] } }) })).status"
+        ), 400)
 
     def test_a_slider_changes_the_picture_and_is_one_step_to_undo(self):
         self.edit()

@@ -38,7 +38,7 @@ pub enum Change {
 /// The reason why a change cannot be made: the page asked for what is not there.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct Refused(&'static str);
+pub struct Refused(pub &'static str);
 
 const NO_PLACE: Refused = Refused("there is no such place in the scene");
 const NO_VALUE: Refused = Refused("that is no value of a scene file");

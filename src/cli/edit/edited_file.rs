@@ -12,6 +12,7 @@ use serde_json::Value as Json;
 use toml_edit::DocumentMut;
 
 use super::changes::{Change, LISTS, Refused, apply};
+use super::looking::{CameraModel, Look, Looking};
 use super::references::REFERENCES;
 use super::values::item_to_json;
 
@@ -42,6 +43,7 @@ struct Content {
     on_disk: Vec<u8>,
     saved: String,
     form: Form,
+    looking: Looking,
 }
 
 /// Traits of the file that the edited text has not.
@@ -79,6 +81,7 @@ pub struct Model<'a> {
     editable: &'a [&'a str],
     /// Keys that name entries, and the list of each.
     references: Json,
+    camera: Option<CameraModel>,
 }
 
 /// The reason why the page does not get what it asked for.
@@ -115,7 +118,18 @@ impl EditedFile {
         };
         let saved = text.clone();
         let (undo, redo, gesture) = (Vec::new(), Vec::new(), None);
-        let content = Content { document, text, revision: 1, undo, redo, gesture, on_disk: bytes, saved, form };
+        let content = Content {
+            document,
+            text,
+            revision: 1,
+            undo,
+            redo,
+            gesture,
+            on_disk: bytes,
+            saved,
+            form,
+            looking: Looking::default(),
+        };
         Ok(Self { path: path.to_owned(), content: Mutex::new(content), changed: Arc::new(AtomicBool::new(false)) })
     }
 
@@ -124,13 +138,35 @@ impl EditedFile {
         &self.changed
     }
 
-    /// Reads the scene of the text as it is now.
+    /// Reads the scene of the text as it is now, seen from where the page moved its camera.
     ///
     /// # Errors
     /// The errors of [`load::load_file_text`].
     pub fn scene(&self, options: &LoadOptions) -> Result<Scene, SceneError> {
         let text = self.content().text.clone();
-        load::load_file_text(&self.path, &text, options)
+        let mut scene = load::load_file_text(&self.path, &text, options)?;
+        self.content().looking.apply(&mut scene);
+        Ok(scene)
+    }
+
+    /// Moves the camera, or with None back to where the file has it. That is no change of the text.
+    ///
+    /// # Errors
+    /// The errors of [`Looking::turn`].
+    pub fn look(&self, to: Option<Look>) -> Result<(), EditError> {
+        self.content().looking.turn(to)?;
+        self.changed.store(true, Ordering::SeqCst);
+        Ok(())
+    }
+
+    /// Writes where the camera was moved into the text.
+    ///
+    /// # Errors
+    /// Another revision, and a camera that was not moved.
+    pub fn keep_look(&self, revision: u64) -> Result<(), EditError> {
+        self.take_change(revision, None, |document, looking| looking.keep(document))?;
+        self.content().looking.turn(None)?;
+        Ok(())
     }
 
     /// The scene as the page gets it.
@@ -149,6 +185,7 @@ impl EditedFile {
             lists: Json::Object(lists),
             editable: &LISTS,
             references: REFERENCES.iter().map(|(key, list)| (*key, *list)).collect(),
+            camera: content.looking.model(),
         }
     }
 
@@ -162,10 +199,19 @@ impl EditedFile {
     /// # Errors
     /// Changes of another revision, and those that cannot be made.
     pub fn change(&self, revision: u64, changes: &[Change], gesture: Option<String>) -> Result<(), EditError> {
+        self.take_change(revision, gesture, |document, _| changes.iter().try_for_each(|change| apply(document, change)))
+    }
+
+    fn take_change(
+        &self,
+        revision: u64,
+        gesture: Option<String>,
+        make: impl FnOnce(&mut DocumentMut, &Looking) -> Result<(), Refused>,
+    ) -> Result<(), EditError> {
         let mut content = self.content();
         content.is_at(revision)?;
         let mut document = content.document.clone();
-        changes.iter().try_for_each(|change| apply(&mut document, change))?;
+        make(&mut document, &content.looking)?;
         let text = document.to_string();
         if text == content.text {
             return Ok(());

@@ -3,6 +3,7 @@
 mod arguments;
 mod changes;
 mod edited_file;
+mod looking;
 mod references;
 mod requests;
 #[cfg(test)]

@@ -6,12 +6,14 @@ use serde::de::DeserializeOwned;
 use super::super::view::{Panel, Reply};
 use super::changes::Change;
 use super::edited_file::{EditError, EditedFile};
+use super::looking::Look;
 
 /// The panel beside the picture, all that it consists of.
-const PARTS: [&str; 4] = [
+const PARTS: [&str; 5] = [
     concat!("<style>\n", include_str!("page/panel.css"), "</style>\n"),
     include_str!("page/panel.html"),
     concat!("<script>\n", include_str!("page/form.js"), "</script>\n"),
+    concat!("<script>\n", include_str!("page/camera.js"), "</script>\n"),
     concat!("<script>\n", include_str!("page/panel.js"), "</script>\n"),
 ];
 
@@ -23,6 +25,16 @@ struct Edit {
     changes: Vec<Change>,
     #[serde(default)]
     gesture: Option<String>,
+}
+
+/// A place for the camera; null: that of the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Turn {
+    /// It is no matter of the text, so that any will do.
+    #[serde(rename = "revision")]
+    _revision: u64,
+    look: Option<Look>,
 }
 
 /// A request about a revision.
@@ -52,6 +64,8 @@ impl Panel for EditedFile {
             "edit" => parsed(body).map(|Edit { revision, changes, gesture }| self.change(revision, &changes, gesture)),
             "undo" => parsed(body).map(|About { revision, .. }| self.undo(revision, false)),
             "redo" => parsed(body).map(|About { revision, .. }| self.undo(revision, true)),
+            "look" => parsed(body).map(|Turn { look, .. }| self.look(look)),
+            "keep" => parsed(body).map(|About { revision, .. }| self.keep_look(revision)),
             "save" => parsed(body).map(|About { revision, overwrite }| self.save(revision, overwrite)),
             _ => return None,
         };

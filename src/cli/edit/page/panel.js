@@ -16,6 +16,14 @@ function change(changes, gesture = null) {
   ask();
 }
 
+// Asks for a place of the camera, or with null for that of the text; a later one takes the place of one that still waits.
+function look(to) {
+  const last = queue.at(-1);
+  if (last?.path === "look") last.body.look = to;
+  else queue.push({ path: "look", body: { look: to } });
+  ask();
+}
+
 function request(path, body = {}) {
   queue.push({ path, body });
   ask();
@@ -35,6 +43,7 @@ async function ask() {
     } catch {
       say("gpt has ended; nothing can be changed or saved any more.");
     }
+    if (!queue.some((one) => one.path === "look")) asked = null;
     render();
   }
   isAsking = false;
@@ -78,6 +87,7 @@ function render(isForced = false) {
   $("unsaved").textContent = model.unsaved ? "● not saved" : "";
   $("undo").disabled = !model.can_undo;
   $("redo").disabled = !model.can_redo;
+  renderCamera();
   const now = JSON.stringify([chosen, model.lists], (_, value) => (typeof value === "number" ? 0 : /^#[0-9a-f]{6}$/i.test(value) ? "#" : value));
   if (now === outline && !isForced) { shown.forEach((update) => update()); return; }
   outline = now;
@@ -179,7 +189,7 @@ window.addEventListener("beforeunload", (event) => { if (model?.unsaved) event.p
 // Mistakes in the scene are told beside the fields. The picture of another page's change brings that change.
 $("mistake").append($("message"));
 $("node-title").tabIndex = -1;
-canvas.setAttribute("aria-label", "the picture as the scene is now; drag to move it, turn the wheel to zoom");
+tellCanvas();
 
 async function begin() {
   [schema, model] = await Promise.all(["schema", "document"].map(async (path) => (await fetch(path)).json()));
@@ -188,7 +198,7 @@ async function begin() {
     if (isAsking || queue.length || state === null || state.round === round) continue;
     round = state.round;
     const news = await fetch("document").then((answer) => answer.json()).catch(() => null);
-    if (news && !isAsking && news.revision > model.revision) { model = news; render(); }
+    if (news && !isAsking && (news.revision > model.revision || JSON.stringify(news.camera) !== JSON.stringify(model.camera))) { model = news; render(); }
   }
 }
 begin();
