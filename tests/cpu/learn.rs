@@ -32,7 +32,7 @@ enum Lamp {
     Mesh(u32),
 }
 
-/// A floor under a square lamp of this half width, and at this height.
+/// A floor under a square lamp of this half width, and at this height. The film is large enough for a trial run to tell what pays.
 fn floor_under_a_lamp(lamp: Lamp, half_width: f64, height: f64) -> Scene {
     let lamp = match lamp {
         Lamp::Rectangle => format!(
@@ -50,7 +50,7 @@ fn floor_under_a_lamp(lamp: Lamp, half_width: f64, height: f64) -> Scene {
         }
     };
     let text = format!(
-        "[film]\nsize = [256, 256]\n[render]\nmax_depth = 2\n\
+        "[film]\nsize = [1024, 1024]\n[render]\nmax_depth = 2\n\
          [camera]\nposition = [0, 0.4, 3]\nlook_at = [0, 0, 0]\nvfov = 40\n\
          [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
          [[material]]\nname = \"lamp\"\ntype = \"diffuse\"\nreflectance = 0\nemission = 1\n\

@@ -44,6 +44,7 @@ class Scene:
         variant: Optional[str],
         assets_root: Optional[str],
         environment: Optional[str],
+        projection: Optional[str],
     ) -> Scene: ...
     @staticmethod
     def from_toml(text: str, folder: str) -> Scene: ...

@@ -34,7 +34,7 @@ pub use guiding::loss_with_guide;
 use sum::Rays;
 use tried::{InView, Loss, TrialResult, tried_pixels};
 
-/// Gain that a way needs over a simpler one to be chosen, for costs are only about known; and beside it, so many standard errors of the trial run.
+/// Gain that a way needs over a simpler one to be chosen, for costs are only about known; and the gain in standard errors of the trial run.
 const LEAST_GAIN: f64 = 1.06;
 const DOUBT: f64 = 1.0;
 /// First surfaces of a path at which several light samples are tried.
@@ -227,7 +227,7 @@ fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
 
 /// Says that a loss is less than another by more than the noise of the trial run.
 fn is_gain(loss: Loss, than: f64) -> bool {
-    loss.value * LEAST_GAIN + DOUBT * loss.standard_error < than
+    loss.value * LEAST_GAIN < than && loss.value + DOUBT * loss.standard_error < than
 }
 
 /// The best way to draw from lights, from a simple one on.
