@@ -100,7 +100,7 @@ impl Looking {
         }
     }
 
-    /// What the page gets; None before the first scene was read.
+    /// The camera for the page; None before the first scene was read.
     pub fn model(&self) -> Option<CameraModel> {
         let seen = self.seen.as_ref()?;
         let look = self.moved.unwrap_or(seen.of_file);

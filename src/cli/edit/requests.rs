@@ -31,7 +31,7 @@ struct Edit {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Turn {
-    /// It is no matter of the text, so that any will do.
+    /// Any will do: the camera is no part of the text.
     #[serde(rename = "revision")]
     _revision: u64,
     look: Option<Look>,
