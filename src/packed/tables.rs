@@ -1,6 +1,5 @@
 //! One array for all that shading looks up: materials and their further parameters, media, the parts and weights of blends, lights, the tree
-//! of them and their profiles, textures, motions, the
-//! spaces of objects.
+//! of them, their profiles and their links, textures, motions, the spaces of objects.
 
 use super::scene::PackedScene;
 

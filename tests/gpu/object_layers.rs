@@ -138,7 +138,7 @@ fn motion_of_the_camera_counts() {
     assert_motion(&frame, left_and_down, -left_and_down);
 }
 
-/// What turns has another motion at each point: that of the rotation, by the places before and after. The sheet turns about the viewing direction.
+/// A sheet that turns has another motion at each point: that of the rotation, by the places before and after. The sheet turns about the viewing direction.
 #[test]
 fn motion_of_what_turns_is_known() {
     let wide =

@@ -165,7 +165,7 @@ impl EditedFile {
     /// Another revision, and a camera that was not moved.
     pub fn keep_look(&self, revision: u64) -> Result<(), EditError> {
         self.take_change(revision, None, |document, looking| looking.keep(document))?;
-        self.content().looking.turn(None)?;
+        self.content().looking.is_kept();
         Ok(())
     }
 

@@ -100,6 +100,13 @@ impl Looking {
         }
     }
 
+    /// The text has the camera where the page moved it.
+    pub fn is_kept(&mut self) {
+        if let (Some(look), Some(seen)) = (self.moved.take(), &mut self.seen) {
+            seen.of_file = look;
+        }
+    }
+
     /// The camera for the page; None before the first scene was read.
     pub fn model(&self) -> Option<CameraModel> {
         let seen = self.seen.as_ref()?;
@@ -163,7 +170,9 @@ mod tests {
         assert_eq!(scene.camera.position, glam::DVec3::new(1.0, 2.0, 3.5));
         looking.keep(&mut document).expect("it was moved");
         assert_eq!(document.to_string(), TEXT.replace("[0.0, 0, 4]", "[1.0, 2.0, 3.5]"));
-        looking.turn(None).expect("back");
+        looking.is_kept();
+        // The next move begins there, though the text was not read again yet.
+        assert!(looking.model().is_some_and(|model| !model.is_moved && model.look.position == [1.0, 2.0, 3.5]));
         assert!(looking.keep(&mut document).is_err());
     }
 

@@ -257,7 +257,7 @@ impl Features {
     /// The scene file.
     pub fn scene(&self) -> String {
         let Self { body, opacity, relief, sides, glow, shape, motion, lamp, lamp_shape, settings, links } = self;
-        // Of surroundings no lamp is left.
+        // No lamp of the surroundings is left.
         let link_of_lamp = if *lamp_shape == SKY { "" } else { links.lamp };
         let link_of_glow = if glow.is_empty() { "" } else { links.glow };
         let (receiver, floor) = (links.body, links.floor);

@@ -139,7 +139,7 @@ fn colours_with_alpha_are_divided_by_it() {
     assert!(quarter.iter().zip(expected).all(|(seen, expected)| (seen - 5.0 * expected).abs() < 5e-3), "{quarter:?}");
 }
 
-/// Where pictures cannot be read, light has the irradiance that the coefficients say, on surfaces of any direction.
+/// Light has the irradiance that the coefficients say, on surfaces of any direction, where pictures cannot be read.
 #[test]
 fn coefficients_stand_in_for_pictures_that_cannot_be_read() {
     let coefficients: Vec<[f64; 3]> = (0..9)
