@@ -103,8 +103,6 @@ function retyped(node, old, type) {
 
 // ---- colours ----
 
-const toSrgb = (linear) => (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
-const toLinear = (coded) => (coded <= 0.04045 ? coded / 12.92 : ((coded + 0.055) / 1.055) ** 2.4);
 const tidy = (number) => Number(number.toPrecision(6));
 // Beyond 1 a colour is shown with its largest channel at 1.
 const hex = (rgb) => `#${rgb.map((channel) => Math.round(255 * toSrgb(Math.min(1, Math.max(0, channel / Math.max(1, ...rgb))))).toString(16).padStart(2, "0")).join("")}`;

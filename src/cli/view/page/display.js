@@ -2,6 +2,10 @@
 // From radiance to bytes of sRGB, as gpt's previews show it: a matrix, a curve for each channel, another matrix, and what the screen expects.
 // Curves are tables over the upper bits of a number, so that a picture takes milliseconds.
 
+// sRGB of a linear number from 0 to 1, and back (IEC 61966-2-1).
+const toSrgb = (linear) => (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
+const toLinear = (coded) => (coded <= 0.04045 ? coded / 12.92 : ((coded + 0.055) / 1.055) ** 2.4);
+
 const TABLE_SHIFT = 13;
 const STEPS = 4095;
 const INSET = [0.842479062253094, 0.0784335999999992, 0.0792237451477643, 0.0423282422610123, 0.878468636469772, 0.0791661274605434,
@@ -14,7 +18,7 @@ function inverse([a, b, c, d, e, f, g, h, i]) {
 
 function srgb(linear) {
   const value = Math.min(1, Math.max(0, linear));
-  return 255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055);
+  return 255 * toSrgb(value);
 }
 
 function hable(x) {

@@ -3,8 +3,7 @@
 
 const groups = { names: [], weights: new Map(), layers: new Map(), layered: 0, sum: null };
 
-const linearOfByte = (byte) => (byte <= 10.31475 ? byte / 3294.6 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
-const tintOf = (colour) => [1, 3, 5].map((at) => linearOfByte(parseInt(colour.slice(at, at + 2), 16)));
+const tintOf = (colour) => [1, 3, 5].map((at) => toLinear(parseInt(colour.slice(at, at + 2), 16) / 255));
 const weightOf = (name) => groups.weights.get(name) ?? { strength: 1, tint: "#ffffff" };
 const isPlain = (name) => weightOf(name).strength === 1 && weightOf(name).tint === "#ffffff";
 const isRegrouped = () => groups.names.length > 0 && !groups.names.every(isPlain);
