@@ -120,6 +120,8 @@ pub struct RenderReport {
     pub clamped_units: u64,
     /// Most bytes allocated on the device at once (0 for the CPU).
     pub peak_device_bytes: u64,
+    /// Seconds spent on paths before the first sample that say how lights and directions are chosen.
+    pub learn_seconds: f64,
     /// Seconds spent building acceleration structures and packing the scene.
     pub build_seconds: f64,
     /// Seconds spent making shaders and pipelines.

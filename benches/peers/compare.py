@@ -18,6 +18,7 @@ import json
 import math
 import os
 import platform
+import subprocess
 import sys
 import tempfile
 import time
@@ -40,12 +41,22 @@ AGREEMENT_LEVEL = 0.001
 # What relative difference of means is not judged: rounding.
 DEFAULT_ALLOWED = (1e-4, "")
 PEERS = ["mitsuba-llvm", "mitsuba-scalar", "cycles", "luxcore"]
+# gpt as a user has it without asking for anything, and at the best of its settings. The first that runs is whose pictures others are compared with.
+WAYS = {"default": "gpt-default", "best": "gpt"}
+# Added to the seed of the default's pictures, so that they share no random numbers with those of the best setting.
+OWN_SEEDS = {"gpt-default": 500}
+
+
+def is_gpt(key):
+    return key in WAYS.values()
+
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", help=f"names out of: {', '.join(scenes.ALL)} (default: all)")
     parser.add_argument("--peers", nargs="+", default=PEERS, choices=PEERS)
+    parser.add_argument("--ways", nargs="+", default=list(WAYS), choices=list(WAYS), help="gpt with its defaults, at its best setting, or both (default: both)")
     parser.add_argument("--seconds", type=float, default=1.2, help="of the longest render of each renderer (default: 1.2)")
     parser.add_argument("--choose-seconds", type=float, help="of the renders by which a renderer's setting is chosen (default: a quarter of --seconds)")
     parser.add_argument("--seeds", type=int, default=5, help="replications, at least 3 (default: 5)")
@@ -71,13 +82,13 @@ def arguments():
 def processes(options, folder):
     python = [sys.executable]
     commands = {
-        "gpt": [*python, "worker_gpt.py", options.gpt.resolve(), options.device],
+        **{key: [*python, "worker_gpt.py", options.gpt.resolve(), options.device, way] for way, key in WAYS.items()},
         "mitsuba-llvm": [*python, "worker_mitsuba.py", "llvm_ad_rgb", options.gpt.resolve()],
         "mitsuba-scalar": [*python, "worker_mitsuba.py", "scalar_rgb", options.gpt.resolve()],
         "cycles": [options.cycles_python, "worker_cycles.py"],
         "luxcore": [*python, "worker_luxcore.py"],
     }
-    return {key: Process(key, commands[key], folder) for key in ["gpt", *options.peers]}
+    return {key: Process(key, commands[key], folder) for key in [*(key for way, key in WAYS.items() if way in options.ways), *options.peers]}
 
 
 def say(text):
@@ -98,7 +109,7 @@ class Contestant:
         self.settings = wanted or known
         first, again = (process.render(self.settings[0], 1, seed) for seed in range(2))
         # gpt is started anew for every picture; its first one filled the driver's cache of kernels.
-        self.start_up = again["wall"] if process.key == "gpt" else process.seconds_to_start + loading + first["wall"]
+        self.start_up = again["wall"] if is_gpt(process.key) else process.seconds_to_start + loading + first["wall"]
         # Of a render of no samples at all, by those of 1 and 4.
         more = process.render(self.settings[0], 4, 2)
         self.idle_cpu = again["cpu"] - (more["cpu"] - again["cpu"]) / (more["spp"] - again["spp"])
@@ -137,7 +148,7 @@ class Contestant:
         self.ladder = sorted({round(self.process.prepare(self.setting, 1 << (power - back))) for back in range(3)})
 
     def render(self, spp, seed):
-        found = self.process.render(self.setting, spp, seed)
+        found = self.process.render(self.setting, spp, seed + OWN_SEEDS.get(self.process.key, 0))
         if not np.isfinite(found["picture"]).all():
             raise PeerError(f"{self.process.key} made pixels that are not finite")
         self.samples.setdefault(found["spp"], []).append(found)
@@ -147,7 +158,7 @@ class Contestant:
         for spp, found in sorted(self.samples.items()):
             pictures = np.stack([each["picture"] for each in found]).astype(np.float64)
             seconds = np.array([each["seconds"] for each in found])
-            own = self.process.key == "gpt"
+            own = is_gpt(self.process.key)
             made.append(convergence.Level(spp, seconds, convergence.relative_errors(pictures, known.brightness) if own else known.errors(pictures)))
         return made
 
@@ -179,7 +190,7 @@ def enter(name, scene, path, options, running):
         except PeerError as error:
             say(f"  {key}: left out of {name}: {error}")
             continue
-        if key == "gpt":
+        if is_gpt(key) and known is None:
             # Four times the samples of the pictures that are judged by it, and no more than are rendered anyway.
             enough = next((spp for spp in contestant.ladder if spp >= 4 * contestant.choosing), contestant.ladder[-1])
             tries = [process.render(contestant.setting, enough, 95 + seed)["picture"] for seed in range(3)]
@@ -195,7 +206,7 @@ def measure(name, scene, path, options, running):
     """Everything known of the scene afterwards."""
     say(f"{name}")
     ready = enter(name, scene, path, options, running)
-    if "gpt" not in ready:
+    if not any(is_gpt(key) for key in ready):
         raise PeerError(f"gpt did not render {name}")
     for seed in range(options.seeds):
         for step in range(3):
@@ -214,11 +225,13 @@ def agreements(scene, path, options, ready):
     """The judgement on every peer's means, from pictures of half the size."""
     found, ours = {}, None
     for key, contestant in ready.items():
+        if is_gpt(key) and ours is not None:
+            continue
         contestant.process.load(path, [side // 2 for side in scene.size])
-        spp = options.agreement_spp * (4 if key == "gpt" else 1)
+        spp = options.agreement_spp * (4 if is_gpt(key) else 1)
         pictures = [contestant.process.render(contestant.setting, spp, 1000 + seed)["picture"] for seed in range(AGREEMENT_SEEDS)]
         pictures = np.stack(pictures).astype(np.float64)
-        if key == "gpt":
+        if is_gpt(key):
             ours = pictures
         else:
             found[key] = judge(ours, pictures, AGREEMENT_LEVEL, scene.allowed.get(key, DEFAULT_ALLOWED)[0])
@@ -227,8 +240,9 @@ def agreements(scene, path, options, ready):
 
 def evaluate(scene, ready, judgements):
     replications = {key: contestant.replications() for key, contestant in ready.items()}
-    alike = [pictures for key, pictures in replications.items() if key == "gpt" or judgements[key].verdict != "differ"]
-    known = convergence.reference(replications["gpt"], convergence.brightness(alike))
+    ours = [key for key in ready if is_gpt(key)]
+    alike = [pictures for key, pictures in replications.items() if is_gpt(key) or judgements[key].verdict != "differ"]
+    known = convergence.reference(np.concatenate([replications[key] for key in ours]), convergence.brightness(alike))
     levels = {key: contestant.levels(known) for key, contestant in ready.items()}
     result = {"size": list(scene.size), "left_out": scene.without, "renderers": {}, "pairs": {}}
     for key, contestant in ready.items():
@@ -239,24 +253,28 @@ def evaluate(scene, ready, judgements):
             "slope": convergence.slope(levels[key]),
             "levels": [{"spp": level.spp, "seconds": level.seconds.tolist(), "relmse": level.errors.tolist()} for level in levels[key]],
         }
-        if key == "gpt":
+        if is_gpt(key):
             continue
         offset, reason = scene.allowed.get(key, DEFAULT_ALLOWED)
         judgement = judgements[key]
-        ratio = convergence.ratio(levels["gpt"], levels[key])
-        cpu = [convergence.time_to(levels[each], ratio.error, ready[each].cpu_seconds(levels[each])) for each in (key, "gpt")]
-        whole = [np.median(convergence.time_to(levels[each], ratio.error)) + ready[each].start_up for each in (key, "gpt")]
         result["pairs"][key] = {
             "agreement": asdict(judgement),
             "allowed_difference": offset,
             "allowed_because": reason,
-            "ratio": asdict(ratio),
-            "cpu_ratio": float(np.median(cpu[0] / cpu[1])),
-            "ratio_with_start_up": float(whole[0] / whole[1]),
+            "ratios": {way: ratios(key, way, ready, levels) for way in ours},
         }
-        say(f"  {key}: {judgement.verdict} ({judgement.channels} channels, {judgement.tiles} tiles rejected), channels {', '.join(f'{d:+.2%}' for d in judgement.difference)}; takes {ratio} times gpt's time")
+        taken = "; ".join(f"{found['median']:.2f} ({found['least']:.2f}–{found['largest']:.2f}) times the time of {way}" for way, found in result["pairs"][key]["ratios"].items())
+        say(f"  {key}: {judgement.verdict} ({judgement.channels} channels, {judgement.tiles} tiles rejected), channels {', '.join(f'{d:+.2%}' for d in judgement.difference)}; takes {taken}")
     result["pictures"] = {key: pictures.mean(axis=0) for key, pictures in replications.items()}
     return result
+
+
+def ratios(peer, way, ready, levels):
+    """The peer's time over gpt's at an equal error: of rendering, of processor time, and with start-up."""
+    ratio = convergence.ratio(levels[way], levels[peer])
+    cpu = [convergence.time_to(levels[each], ratio.error, ready[each].cpu_seconds(levels[each])) for each in (peer, way)]
+    whole = [np.median(convergence.time_to(levels[each], ratio.error)) + ready[each].start_up for each in (peer, way)]
+    return asdict(ratio) | {"processor": float(np.median(cpu[0] / cpu[1])), "with_start_up": float(whole[0] / whole[1])}
 
 
 def machine():
@@ -264,11 +282,18 @@ def machine():
     return {"processor": model[0] if model else platform.processor(), "cores": os.cpu_count(), "system": platform.platform()}
 
 
+def device(options):
+    """Name and driver of the device that gpt renders on."""
+    listed = json.loads(subprocess.run([options.gpt, "devices", "--json"], check=True, capture_output=True, text=True).stdout)
+    chosen = [found for found in listed if found["chosen_by_auto"]] if options.device == "auto" else []
+    return {"name": chosen[0]["name"], "driver": chosen[0]["driver"]} if chosen else {"name": options.device}
+
+
 def main():
     mi.set_variant("scalar_rgb")
     options = arguments()
     start = time.perf_counter()
-    report = {"date": datetime.date.today().isoformat(), "machine": machine(), "seconds": options.seconds, "seeds": options.seeds, "absent": {}, "scenes": {}}
+    report = {"date": datetime.date.today().isoformat(), "machine": machine(), "device": device(options), "seconds": options.seconds, "seeds": options.seeds, "absent": {}, "scenes": {}}
     with tempfile.TemporaryDirectory() as folder:
         running = processes(options, folder)
         for key, process in list(running.items()):

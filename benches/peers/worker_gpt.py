@@ -1,4 +1,5 @@
-"""gpt as a worker (worker.py): every render is a process of its own. Arguments: the program, then the device.
+"""gpt as a worker (worker.py): every render is a process of its own. Arguments: the program, the device, and `best` for the settings that are
+tried, or `default` for the one that a user has without asking.
 
 Runs where Mitsuba is installed, whose reader of EXR files it takes.
 """
@@ -32,14 +33,17 @@ SETTINGS = {
 }
 
 
+DEFAULT = {"the default": []}
+
 # Enough for adaptive sampling to begin.
 WARMING_SAMPLES = 16
 
 
 class Gpt:
-    def __init__(self, program, device):
+    def __init__(self, program, device, way):
         mi.set_variant("scalar_rgb")
         self.program, self.device = program, device
+        self.known = DEFAULT if way == "default" else SETTINGS
         self.name = "gpt"
         self.version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
         self.folder = tempfile.TemporaryDirectory()
@@ -49,28 +53,30 @@ class Gpt:
         self.command = [self.program, "render", path, "--size", "{}x{}".format(*size), "--device", self.device, "--quiet", "--strict"]
 
     def settings(self):
-        return list(SETTINGS)
+        return list(self.known)
 
     def prepare(self, setting, spp):
-        # The driver compiles on first use, and keeps what it compiled. Kernels do not depend on how many samples there are.
-        if setting not in self.warm:
-            self.warm.add(setting)
-            self.run(setting, min(spp, WARMING_SAMPLES), 0)
+        # The driver compiles on first use, and keeps what it compiled. Kernels do not depend on how many samples there are, but what the default
+        # learns does, and with that its kernels.
+        key = (setting, spp) if setting in DEFAULT else setting
+        if key not in self.warm:
+            self.warm.add(key)
+            self.run(setting, spp if setting in DEFAULT else min(spp, WARMING_SAMPLES), 0)
         return spp
 
     def run(self, setting, spp, seed):
         """The files of the picture and of its figures."""
         picture, report = (Path(self.folder.name) / name for name in ("picture.exr", "stats.json"))
         options = ["--spp", str(spp), "--seed", str(seed), "-o", str(picture), "--stats", str(report)]
-        subprocess.run([*self.command, *SETTINGS[setting], *options], check=True)
+        subprocess.run([*self.command, *self.known[setting], *options], check=True)
         return picture, report
 
     def render(self, setting, spp, seed):
         self.prepare(setting, spp)
         picture, report = self.run(setting, spp, seed)
         figures = json.loads(report.read_text(encoding="utf-8"))
-        # What a guide takes to learn is no start-up.
-        self.learning_seconds = figures["seconds"]["build"] if "--guiding" in SETTINGS[setting] else 0.0
+        # Learning is no start-up: it pays back in the samples that follow.
+        self.learning_seconds = figures["seconds"]["learn"]
         seconds = figures["seconds"]["render"] + self.learning_seconds
         # Where adaptive sampling gave pixels different numbers of samples, they stand in a fourth channel.
         return np.array(mi.Bitmap(str(picture)), dtype=np.float32)[..., :3], seconds, spp

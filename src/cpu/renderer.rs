@@ -45,6 +45,7 @@ pub struct ReferenceRenderer {
     because: Reasons,
     /// Paths were traced before the first sample to learn about the scene.
     depends_on_view: bool,
+    learn_seconds: f64,
     build_seconds: f64,
     /// Passes done and how long they took, to size the next.
     timed_samples: f64,
@@ -113,7 +114,7 @@ impl ReferenceRenderer {
     /// [`ReferenceRenderer::of_layer`] for a render of this length, by which it learns.
     pub fn of_length(scene: &Scene, layer: Option<KernelLayer>, effort: Effort) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let Settled { scene, because, depends_on_view, integrator, .. } = learn::settle(scene, effort)?;
+        let Settled { scene, because, depends_on_view, integrator, seconds: learn_seconds, .. } = learn::settle(scene, effort)?;
         let mut integrator = integrator.map_or_else(|| Integrator::new(&scene), Ok)?;
         integrator.hide_other_groups();
         Ok(Self {
@@ -124,7 +125,8 @@ impl ReferenceRenderer {
             because,
             depends_on_view,
             pixels_in_memory: MOST_FILM_PIXELS,
-            build_seconds: start.elapsed().as_secs_f64(),
+            learn_seconds,
+            build_seconds: start.elapsed().as_secs_f64() - learn_seconds,
             timed_samples: 0.0,
             timed_seconds: 0.0,
         })
@@ -400,6 +402,7 @@ impl Renderer for ReferenceRenderer {
         let start = Instant::now();
         // Learning may depend on what the camera sees.
         if change == Change::Camera && !self.depends_on_view && self.integrator.set_camera(scene) {
+            self.learn_seconds = 0.0;
             self.build_seconds = start.elapsed().as_secs_f64();
             return Ok(self);
         }
@@ -434,6 +437,7 @@ impl Renderer for ReferenceRenderer {
         let before = batch.resume.map(|state| state.tally).unwrap_or_default();
         let report = RenderReport {
             device: self.device().into(),
+            learn_seconds: self.learn_seconds,
             build_seconds: self.build_seconds,
             rays: before.rays,
             samples: before.samples,

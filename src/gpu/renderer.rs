@@ -45,6 +45,8 @@ pub struct GpuRenderer {
     environment: PackedEnvironment,
     /// Paths were traced before the first sample to learn about the scene.
     depends_on_view: bool,
+    /// Seconds that learning took.
+    learn_seconds: f64,
     /// Options of this plan, and of the plans of further frames.
     options: PlanOptions,
     /// Trees that the next frame's hierarchy may be made of.
@@ -114,6 +116,7 @@ impl GpuRenderer {
             center: scene.center(),
             environment: packed.environment,
             depends_on_view: settled.depends_on_view,
+            learn_seconds: settled.seconds,
             options: options.clone(),
             trees,
         })
@@ -251,6 +254,7 @@ impl Renderer for GpuRenderer {
             let view = View::new(&scene.centered(), &self.environment);
             self.pipeline.write(Binding::View, bytemuck::bytes_of(&view));
             self.pipeline.compile_seconds = 0.0;
+            self.learn_seconds = 0.0;
             self.pipeline.build_seconds = start.elapsed().as_secs_f64();
             return Ok(self);
         }
@@ -326,7 +330,8 @@ impl Renderer for GpuRenderer {
             clamped_samples: tally.clamped_samples,
             clamped_units: tally.clamped_units,
             peak_device_bytes: self.pipeline.buffers.bytes,
-            build_seconds: self.pipeline.build_seconds,
+            learn_seconds: self.learn_seconds,
+            build_seconds: self.pipeline.build_seconds - self.learn_seconds,
             compile_seconds: self.pipeline.compile_seconds,
             render_seconds: start.elapsed().as_secs_f64(),
             interrupted: ended == Some(Ending::Interrupted),

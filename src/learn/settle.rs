@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::budget::{Budget, Effort, LEAST_BUDGET};
 use super::reasons::Reasons;
@@ -27,6 +28,8 @@ pub struct Settled<'a> {
     pub depends_on_view: bool,
     /// The scene made ready for tracing paths, with all that was learned, where learning needed it.
     pub integrator: Option<Integrator>,
+    /// Seconds that learning took, with the scene made ready for it.
+    pub seconds: f64,
     /// Cells of lights were chosen by learning, not by the scene.
     chose_cells: bool,
 }
@@ -38,10 +41,13 @@ pub struct Settled<'a> {
 /// [`RenderError`] for a scene that is not valid or that the reference cannot render.
 pub fn settle(scene: &Scene, effort: Effort) -> Result<Settled<'_>, RenderError> {
     scene.validate()?;
-    match openness::baked(scene)? {
-        None => settle_baked(scene, effort),
-        Some(baked) => settle_baked(&baked, effort).map(Settled::into_owned),
-    }
+    let start = Instant::now();
+    let mut settled = match openness::baked(scene)? {
+        None => settle_baked(scene, effort)?,
+        Some(baked) => settle_baked(&baked, effort)?.into_owned(),
+    };
+    settled.seconds = start.elapsed().as_secs_f64();
+    Ok(settled)
 }
 
 /// The scene with all that it leaves open of how lights are drawn from, so that its frames draw from them alike.
@@ -75,15 +81,15 @@ fn settle_baked(scene: &Scene, effort: Effort) -> Result<Settled<'_>, RenderErro
     }
     let depends_on_view = was_tried || light_cells.is_some();
     let chose_cells = was_open && light_cells.is_some();
-    Ok(Settled { scene, because, light_cells, guide, depends_on_view, integrator, chose_cells })
+    Ok(Settled { scene, because, light_cells, guide, depends_on_view, integrator, seconds: 0.0, chose_cells })
 }
 
 impl Settled<'_> {
     /// A copy of it with a scene of its own.
     fn into_owned(self) -> Settled<'static> {
-        let Self { scene, because, light_cells, guide, depends_on_view, integrator, chose_cells } = self;
+        let Self { scene, because, light_cells, guide, depends_on_view, integrator, seconds, chose_cells } = self;
         let scene = Cow::Owned(scene.into_owned());
-        Settled { scene, because, light_cells, guide, depends_on_view, integrator, chose_cells }
+        Settled { scene, because, light_cells, guide, depends_on_view, integrator, seconds, chose_cells }
     }
 
     /// Gives up cells of lights, for a device on which they have no room, where nobody asked for them:

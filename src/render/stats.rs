@@ -78,6 +78,8 @@ pub struct Stats {
 pub struct Seconds {
     /// Reading the scene and the files it names.
     pub load: f64,
+    /// Paths before the first sample, which say how lights and directions are chosen.
+    pub learn: f64,
     /// Acceleration structures and packing.
     pub build: f64,
     /// Shaders and pipelines.
@@ -121,6 +123,7 @@ impl Stats {
             light_by_chance: outcome.error.map(|_| scene.has_light_by_chance()),
             first_sample: options.first_sample,
             seconds: Seconds {
+                learn: report.learn_seconds,
                 build: report.build_seconds,
                 compile: report.compile_seconds,
                 render: report.render_seconds,

@@ -151,7 +151,7 @@ fn stats_have_the_keys_that_other_programs_rely_on() {
         "render scene.toml --device cpu --spp 4 --size 10x6 --seed 9 --light-samples 3 --light-samples-depth 2 --roulette-depth 5 --stats stats.json -q",
     );
     let stats = place.stats("stats.json");
-    for key in ["load", "build", "compile", "render", "write"] {
+    for key in ["load", "learn", "build", "compile", "render", "write"] {
         assert!(stats["seconds"][key].is_number(), "seconds.{key}");
     }
     for key in ["samples_per_second", "rays", "rays_per_second", "non_finite_samples", "peak_device_bytes"] {
