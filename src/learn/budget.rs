@@ -22,13 +22,13 @@ const PATHS_AS_CODE: f64 = 6.0;
 const PATHS_IN_A_HIERARCHY: f64 = 2.0;
 const PATHS_OF_A_CARD: f64 = 100.0;
 /// Paths in whose time the reference's hierarchy takes in a triangle.
-const PATHS_OF_TRIANGLE: f64 = 0.1;
+const PATHS_OF_TRIANGLE: f64 = 0.25;
 /// Seconds of a time limit that pass before the first sample, without learning: the driver, and for each triangle reading, packing and the
 /// device's hierarchy (two cores; docs/performance.md, "What does the CPU's part take?").
 const SECONDS_OF_SET_UP: f64 = 0.15;
-const SECONDS_OF_TRIANGLE: f64 = 3.5e-6;
+const SECONDS_OF_TRIANGLE: f64 = 1.7e-6;
 /// Seconds in which the hierarchy that learning needs takes in a triangle.
-const SECONDS_OF_HIERARCHY: f64 = 1.3e-6;
+const SECONDS_OF_HIERARCHY: f64 = 6e-7;
 
 /// Counted work of the cheapest paths: of two vertices that meet next to nothing.
 const LEAST_WORK_OF_PATH: f64 = 128.0;
@@ -97,6 +97,11 @@ impl Budget {
     pub fn paths(self, work_of_path: f64) -> f64 {
         let paths = self.work.map_or(self.paths, |work| self.paths.min(work / work_of_path.max(1.0)));
         if self.keeps_a_part_for_the_guide { (SHARE_OF_LIGHTS * paths).max(PATHS_OF_LIGHTS.min(paths)) } else { paths }
+    }
+
+    /// Counted work that may go into paths in all, where one of them takes so much.
+    pub fn work(self, work_of_path: f64) -> u64 {
+        (self.paths(work_of_path) * work_of_path) as u64
     }
 
     /// A time limit ends the render.

@@ -1,6 +1,6 @@
 //! Scenes that are worth learning about.
 
-use crate::scene::{Guiding, Scene, SceneSummary};
+use crate::scene::{Geometry, Guiding, Scene, SceneSummary};
 
 /// Triangles above which the reference's hierarchy, which learning needs, takes seconds to build.
 const MOST_TRIANGLES: usize = 1 << 20;
@@ -29,4 +29,11 @@ pub fn paths_scatter(scene: &Scene) -> bool {
 /// Says that a guide is to be learned if it pays, and that it may.
 pub fn guide_may_pay(scene: &Scene) -> bool {
     scene.render.guiding == Guiding::Auto && paths_scatter(scene) && !has_many_triangles(scene)
+}
+
+/// Says that a surface with straight edges may give light, whose points can be drawn by solid angle.
+pub fn has_flat_lights(scene: &Scene) -> bool {
+    let emits = scene.materials_that(|material| material.emission.is_some());
+    let is_flat = |geometry: &Geometry| matches!(geometry, Geometry::Mesh(_) | Geometry::Box(_) | Geometry::Rectangle(_));
+    scene.shapes.iter().any(|shape| is_flat(&shape.geometry) && shape.materials().any(|id| emits.get(id) == Some(&true)))
 }

@@ -39,6 +39,8 @@ const MOST_UNLISTED: f64 = 0.1;
 /// One path for so many pixels says where light is sampled, within these numbers.
 const PIXELS_OF_PATH: u64 = 8;
 const PATHS: [u64; 2] = [1 << 10, 1 << 14];
+/// Share of the paths that may be traced which say it, at most: rays to lights from where they scatter take as long again.
+const SHARE: f64 = 0.125;
 /// Paths that one task traces.
 const PATHS_AT_ONCE: u32 = 128;
 /// Work at most of these paths, and work after which no further cell is tried.
@@ -81,14 +83,17 @@ pub struct LightsSettled<'a> {
 /// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and
 /// learns what that needs. Of few lights it learns what a trial run compares with a choice by power.
 ///
+/// Without a trial run (`may_be_tried`), cells of few lights would be learned for nothing.
+///
 /// # Errors
 /// [`RenderError`] for a scene that the reference cannot render.
-pub fn settle(scene: &Scene, budget: Budget) -> Result<LightsSettled<'_>, RenderError> {
+pub fn settle(scene: &Scene, budget: Budget, may_be_tried: bool) -> Result<LightsSettled<'_>, RenderError> {
     let is_open = scene.render.light_choice == LightChoice::Auto;
     let with = |light_choice| Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
     let as_it_is = LightsSettled { scene: Cow::Borrowed(scene), integrator: None, because: None, is_undecided: false };
     let wanted = is_open || scene.render.light_choice == LightChoice::Cells;
-    if !wanted || !is_sampled(scene) || most_lights(scene) < 2 || (is_open && !is_worth_learning(scene, budget)) {
+    let is_in_vain = || is_open && !may_be_tried && most_lights(scene) < MANY_LIGHTS;
+    if !wanted || is_in_vain() || !is_sampled(scene) || most_lights(scene) < 2 || (is_open && !is_worth_learning(scene, budget)) {
         return Ok(as_it_is);
     }
     let by_cells = if is_open { Cow::Owned(with(LightChoice::Cells)) } else { Cow::Borrowed(scene) };
@@ -99,7 +104,7 @@ pub fn settle(scene: &Scene, budget: Budget) -> Result<LightsSettled<'_>, Render
         integrator.set_light_choice(scene.render.light_choice);
         return Ok(LightsSettled { integrator: Some(integrator), ..as_it_is });
     }
-    let Some(Learned { table, unlisted }) = learned(&integrator, is_open) else {
+    let Some(Learned { table, unlisted }) = learned(&integrator, is_open.then_some(budget)) else {
         return Ok(without_cells(integrator, has_few, with));
     };
     integrator.set_light_cells(Arc::new(table));
@@ -171,10 +176,11 @@ struct Learned {
     unlisted: f64,
 }
 
-/// Learns from a scene whose lights are chosen by cells. None where that `has_to_be_whole` and takes too much
-/// work; else less is learned then, and cells that were not tried choose by power.
-fn learned(integrator: &Integrator, has_to_be_whole: bool) -> Option<Learned> {
-    let wanted = path_count(integrator.scene());
+/// Learns from a scene whose lights are chosen by cells. None where that is to be done `within` a budget and takes too much
+/// work; where it is asked for, less is learned then, and cells that were not tried choose by power.
+fn learned(integrator: &Integrator, within: Option<Budget>) -> Option<Learned> {
+    let wanted = path_count(integrator.scene(), within);
+    let has_to_be_whole = within.is_some();
     let affordable = (MOST_WORK as f64 / work_of_path::of_path(integrator).max(1.0)) as u32;
     if has_to_be_whole && affordable < wanted {
         return None;
@@ -208,10 +214,14 @@ fn learned(integrator: &Integrator, has_to_be_whole: bool) -> Option<Learned> {
     Some(Learned { table: division.table(&reaching), unlisted })
 }
 
-/// How many paths say where light is sampled.
-fn path_count(scene: &Scene) -> u32 {
+/// How many paths say where light is sampled: fewer, and so fewer cells, where the render is short.
+fn path_count(scene: &Scene, within: Option<Budget>) -> u32 {
     let [fewest, most] = PATHS;
-    (pixel_count(scene) / PIXELS_OF_PATH).clamp(fewest, most).next_power_of_two() as u32
+    // Where lights are many, finer cells are worth what they take.
+    let within = within.filter(|_| most_lights(scene) < MANY_LIGHTS);
+    let affordable = within.map_or(most, |budget| (SHARE * budget.most_paths()) as u64).clamp(fewest, most);
+    let affordable = 1 << affordable.ilog2();
+    (pixel_count(scene) / PIXELS_OF_PATH).clamp(fewest, most).next_power_of_two().min(affordable) as u32
 }
 
 /// The points where so many training paths scatter, in their order.

@@ -18,7 +18,7 @@ mod unguided;
 use std::borrow::Cow;
 
 use super::budget::{Budget, TOO_SHORT};
-use super::extent::{guide_may_pay, has_many_triangles};
+use super::extent::{guide_may_pay, has_flat_lights, has_many_triangles};
 use super::light_cells::{self, LightsSettled};
 use super::reasons::Reasons;
 use super::work_of_path;
@@ -32,11 +32,13 @@ use crate::scene::{Estimator, FEW_PRIMITIVES, LightChoice, LightSampling, Number
 use cost::costs;
 pub use guiding::loss_with_guide;
 use sum::Rays;
-use tried::{InView, Loss, TrialResult, tried_pixels};
+use tried::{InView, Loss, MANY_PIXELS, TrialResult, tried_pixels};
 
-/// Gain that a way needs over a simpler one to be chosen, for costs are only about known; and the gain in standard errors of the trial run.
+/// Gain that a way needs over a simpler one to be chosen, for costs are only about known; and the gain in standard errors of the trial run,
+/// of many pixels and of few, whose standard error is itself a guess.
 const LEAST_GAIN: f64 = 1.06;
 const DOUBT: f64 = 1.0;
+const DOUBT_OF_FEW: f64 = 2.0;
 /// First surfaces of a path at which several light samples are tried.
 const MOST_DEPTH: u32 = 2;
 /// Numbers, each twice the one before, that are tried after the best one.
@@ -65,6 +67,11 @@ pub struct Chosen<'a> {
     pub work_of_path: Option<f64>,
 }
 
+/// Pixels that the budget lets a trial run try, where a path takes so much work; None where they are too few.
+fn affordable_pixels(scene: &Scene, budget: Budget, of_path: f64) -> Option<u32> {
+    tried_pixels(scene, budget.of_lights(guide_may_pay(scene)).paths(of_path) / USUAL_WAYS)
+}
+
 /// Settings that the scene leaves open.
 #[derive(Clone, Copy, PartialEq)]
 struct Open {
@@ -75,11 +82,12 @@ struct Open {
 }
 
 impl Open {
-    fn of(settings: &RenderSettings, light_choice: bool) -> Self {
+    fn of(scene: &Scene, light_choice: bool) -> Self {
+        let settings = &scene.render;
         Self {
             light_choice,
             light_samples: settings.light_samples == NumberOrAuto::Auto,
-            light_sampling: settings.light_sampling == LightSampling::Auto,
+            light_sampling: settings.light_sampling == LightSampling::Auto && has_flat_lights(scene),
         }
     }
 
@@ -99,7 +107,7 @@ impl Open {
 /// # Errors
 /// [`RenderError`] for a scene that the reference cannot render.
 pub fn choose(scene: &Scene, budget: Budget) -> Result<Chosen<'_>, RenderError> {
-    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene, budget)?;
+    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene, budget, affordable_pixels(scene, budget, 0.0).is_some())?;
     let mut chosen = match scene {
         Cow::Borrowed(scene) => choose_the_rest(scene, budget, integrator, is_undecided)?,
         Cow::Owned(scene) => {
@@ -119,7 +127,7 @@ fn choose_the_rest(
     integrator: Option<Integrator>,
     has_cells: bool,
 ) -> Result<Chosen<'_>, RenderError> {
-    let mut open = Open::of(&scene.render, has_cells);
+    let mut open = Open::of(scene, has_cells);
     let as_it_is = |integrator, because, work_of_path| Chosen {
         scene: Cow::Borrowed(scene),
         because,
@@ -135,14 +143,12 @@ fn choose_the_rest(
     if let Some(because) = not_worth_trying(scene) {
         return Ok(as_it_is(integrator, open.reasons(because), None));
     }
-    let guide_is_wanted = guide_may_pay(scene);
-    let affordable = |of_path| tried_pixels(scene, budget.of_lights(guide_is_wanted).paths(of_path) / USUAL_WAYS);
-    if affordable(0.0).is_none() {
+    if affordable_pixels(scene, budget, 0.0).is_none() {
         return Ok(as_it_is(integrator, open.reasons(TOO_SHORT), None));
     }
     let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
     let of_path = work_of_path::of_path(&integrator);
-    let Some(pixels) = affordable(of_path) else {
+    let Some(pixels) = affordable_pixels(scene, budget, of_path) else {
         return Ok(as_it_is(Some(integrator), open.reasons(TOO_SHORT), Some(of_path)));
     };
     let mut trial = TrialRun::new(scene, integrator, pixels);
@@ -151,6 +157,7 @@ fn choose_the_rest(
         let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };
         return Ok(as_it_is(Some(trial.integrator), reasons, Some(of_path)));
     }
+    trial.most_work = budget.of_lights(guide_may_pay(scene)).work(of_path).min(MOST_WORK);
     open.light_sampling &= trial.costliest_outline.is_some();
     if !open.is_any() {
         return Ok(as_it_is(Some(trial.integrator), Reasons::default(), Some(of_path)));
@@ -203,11 +210,11 @@ fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
     // An environment of one colour is no light that is sampled.
     let samples_lights = simplest.rays().shadow > 0.0;
     if samples_lights {
-        if open.light_choice && trial.spent <= MOST_WORK {
+        if open.light_choice && trial.spent <= trial.most_work {
             let by_cells = Tried { light_choice: LightChoice::Cells, ..first };
             let loss = trial.try_way(by_cells).loss_of_outliers_over(&simplest, &in_view);
             loss_by_cells = loss.value;
-            if is_gain(loss, first.loss) {
+            if trial.is_gain(loss, first.loss) {
                 chosen = Tried { loss: loss_by_cells, ..by_cells };
             }
         }
@@ -225,26 +232,30 @@ fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
     }
 }
 
-/// Says that a loss is less than another by more than the noise of the trial run.
-fn is_gain(loss: Loss, than: f64) -> bool {
-    loss.value * LEAST_GAIN < than && loss.value + DOUBT * loss.standard_error < than
-}
-
 /// The best way to draw from lights, from a simple one on.
 fn best_way(trial: &mut TrialRun<'_>, simple: Tried, open: Open, beside: (&TrialResult, &InView)) -> Tried {
     let mut best = simple;
     if open.light_sampling {
         best = trial.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
     }
-    for depth in (1..=most_depth(&trial.settings)).filter(|_| open.light_samples) {
-        let (mut in_vain, fewest) = (0, best.samples[0]);
-        for count in [2, 4, 8, MOST_LIGHT_SAMPLES].into_iter().filter(|&count| count >= fewest) {
-            let better = trial.better(best, Tried { samples: [count, depth], ..best }, beside);
-            in_vain = if better == best { in_vain + 1 } else { 0 };
-            best = better;
-            if in_vain == MOST_IN_VAIN {
-                break;
-            }
+    if !open.light_samples {
+        return best;
+    }
+    // More samples at one surface or at two: the better of both is doubled further.
+    let (mut in_vain, mut depths) = (0, 1..=most_depth(&trial.settings));
+    for count in [2, 4, 8, MOST_LIGHT_SAMPLES] {
+        let before = best;
+        for depth in depths.clone() {
+            best = trial.better(best, Tried { samples: [count, depth], ..best }, beside);
+        }
+        if best == before {
+            in_vain += 1;
+        } else {
+            (in_vain, depths) = (0, best.samples[1]..=best.samples[1]);
+        }
+        // A way that gains makes a sample of the picture longer, and so affords trying the next one.
+        if in_vain == MOST_IN_VAIN || (in_vain > 0 && trial.spent > trial.most_work) {
+            break;
         }
     }
     best
@@ -279,8 +290,9 @@ struct TrialRun<'a> {
     pixels: u32,
     /// Shadow rays of the first way that was tried.
     shadow_rays: f64,
-    /// Work of all ways that were tried.
+    /// Work of all ways that were tried, and work after which no further one is where they gain nothing.
     spent: u64,
+    most_work: u64,
 }
 
 impl<'a> TrialRun<'a> {
@@ -288,7 +300,13 @@ impl<'a> TrialRun<'a> {
         let is_simple = integrator.primitive_count() <= FEW_PRIMITIVES;
         let costliest_outline = integrator.costliest_outline();
         let settings = scene.render.clone();
-        Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0, spent: 0 }
+        Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0, spent: 0, most_work: MOST_WORK }
+    }
+
+    /// Says that a loss is less than another by more than the noise of the trial run.
+    fn is_gain(&self, loss: Loss, than: f64) -> bool {
+        let doubt = if self.pixels < MANY_PIXELS { DOUBT_OF_FEW } else { DOUBT };
+        loss.value * LEAST_GAIN < than && loss.value + doubt * loss.standard_error < than
     }
 
     /// The better of two ways, both beside the simplest.
@@ -297,7 +315,7 @@ impl<'a> TrialRun<'a> {
             return best;
         }
         let loss = self.try_way(other).loss_over(simplest, in_view);
-        if is_gain(loss, best.loss) { Tried { loss: loss.value, ..other } } else { best }
+        if self.is_gain(loss, best.loss) { Tried { loss: loss.value, ..other } } else { best }
     }
 
     /// The settings with another way to draw from lights; a number of light samples that is given stays.

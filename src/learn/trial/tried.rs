@@ -15,8 +15,9 @@ use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// Pixels that are tried at least: fewer tell too little.
-const FEWEST_PIXELS: u64 = 1 << 7;
+/// Pixels that are tried at least: fewer tell too little. Of fewer than [`MANY_PIXELS`] a gain must be larger beside the noise.
+const FEWEST_PIXELS: u64 = 1 << 5;
+pub const MANY_PIXELS: u32 = 1 << 6;
 /// One of so many pixels is tried, within these numbers, where the render is long enough.
 const ONE_OF_PIXELS: u64 = 1 << 10;
 const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
