@@ -148,7 +148,7 @@ shader_files![
 
 /// The file of each lobe in the table of materials.
 macro_rules! lobe_files {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
+    ($($(#[$doc:meta])* $material:ident $(($($boxed:tt)*))? $({$($fields:tt)*})? $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $(($($slots:tt)*))? $([$($parameters:tt)*])?)* })*) => {
         const LOBES: &[(&str, &str)] = &[$($((
             concat!("shading/bsdf/", stringify!($file), ".wgsl"),
             include_str!(concat!("../../shaders/shading/bsdf/", stringify!($file), ".wgsl")),

@@ -91,7 +91,7 @@ const IN_HIERARCHY_BESIDE_TRIANGLES: &[&str] = IN_HIERARCHY.split_at(1).1;
 
 /// A switch for each lobe in the table of materials.
 macro_rules! lobes {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
+    ($($(#[$doc:meta])* $material:ident $(($($boxed:tt)*))? $({$($fields:tt)*})? $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $(($($slots:tt)*))? $([$($parameters:tt)*])?)* })*) => {
         const LOBES: &[Switch] = &[$($(lobes!(@requires $support stringify!($switch)),)*)*];
     };
     (@requires Sphere $name:expr) => { switch($name).requires(&["NON_DELTA_TRANSMISSION"]) };
