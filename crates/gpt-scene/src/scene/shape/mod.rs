@@ -97,7 +97,7 @@ impl Geometry {
         self.model().lacks_uv()
     }
 
-    /// What its fronts look away from.
+    /// The part of space that its fronts look away from.
     pub fn enclosure(&self) -> Enclosure {
         self.model().enclosure()
     }
