@@ -8,8 +8,8 @@
 #import shading/material/seen.wgsl
 #import shading/shapes.wgsl
 #import geometry/instance.wgsl
-#import shading/shape/triangle.wgsl
-#import shading/shape_point.wgsl
+#import geometry/shape/triangle.wgsl
+#import geometry/shape_point.wgsl
 #import shading/texture/attributes.wgsl
 #import shading/texture/tangents.wgsl
 #import geometry/placed.wgsl

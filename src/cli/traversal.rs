@@ -16,7 +16,8 @@ pub enum TraversalName {
     Auto,
     /// A bounding volume hierarchy, however few the primitives
     Bvh,
-    /// The device's own acceleration structure, by ray queries; refused where the device has none or the scene moves
+    /// The device's own acceleration structure, by ray queries, in programs built with the cargo feature `ray-query`; refused where the device has none or the
+    /// scene moves
     RayQuery,
 }
 

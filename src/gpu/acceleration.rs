@@ -23,9 +23,8 @@ const VERTEX_STRIDE: u64 = size_of::<Primitive>() as u64 / 3;
 /// A structure over all that a scene's hierarchy holds: an instance of its triangles and one of the boxes of its other shapes, as far as
 /// there are any. Their custom data is the first primitive of each.
 pub struct Acceleration {
-    pub structure: wgpu::Tlas,
-    /// Bytes on the device; an estimate where the device does not tell.
-    pub bytes: u64,
+    structure: wgpu::Tlas,
+    bytes: u64,
 }
 
 /// Structures built so far: each has a name of its own, under which its memory is found.
@@ -60,6 +59,16 @@ impl Acceleration {
         device.queue.submit([encoder.finish()]);
         let estimate = ACCELERATION_BYTES * u64::from(packed.hierarchy.primitive_count);
         Some(Self { structure, bytes: allocated(device, &name).unwrap_or(estimate) })
+    }
+
+    /// Bytes on the device; an estimate where the device does not tell.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// The resource of a bind group.
+    pub fn as_binding(&self) -> wgpu::BindingResource<'_> {
+        self.structure.as_binding()
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use wgpu::{Adapter, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, InstanceFlags, TextureFormat};
 
-use super::limits::driver_identity;
+use super::limits::{driver_identity, has_ray_queries};
 use super::software_drivers;
 use crate::renderer::{DeviceChoice, RenderError};
 
@@ -37,7 +37,7 @@ pub struct AdapterSummary {
     /// A shader may read and write one rgba32float storage texture.
     pub read_write_rgba32float: bool,
     pub timestamps: bool,
-    /// Kernels can ask an acceleration structure of the device's own (`--traversal ray-query`).
+    /// Kernels of this build can ask an acceleration structure of the device's own (`--traversal ray-query`).
     pub ray_queries: bool,
     /// The reason why the renderer cannot use the adapter; `auto` passes it over.
     pub unusable: Option<String>,
@@ -184,7 +184,7 @@ fn summarise(adapter: &Adapter) -> AdapterSummary {
         subgroup_sizes: [info.subgroup_min_size, info.subgroup_max_size],
         read_write_rgba32float: can_read_and_write(adapter, TextureFormat::Rgba32Float),
         timestamps: features.contains(Features::TIMESTAMP_QUERY),
-        ray_queries: features.contains(Features::EXPERIMENTAL_RAY_QUERY),
+        ray_queries: has_ray_queries(adapter),
         unusable: obstacle(adapter),
     }
 }

@@ -120,7 +120,7 @@ impl Buffers {
         let film_bytes = u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES;
         let bytes = buffers.values().map(wgpu::Buffer::size).sum::<u64>()
             + film_bytes
-            + acceleration.as_ref().map_or(0, |acceleration| acceleration.bytes);
+            + acceleration.as_ref().map_or(0, Acceleration::bytes);
         Self { buffers, film: Film::new(device, plan, width), acceleration, bytes }
     }
 
@@ -135,7 +135,7 @@ impl Buffers {
             return self.film.resource(half as usize);
         }
         if number == Binding::Acceleration as u32 {
-            return Some(self.acceleration.as_ref()?.structure.as_binding());
+            return Some(self.acceleration.as_ref()?.as_binding());
         }
         let buffer = self.buffers.get(&number)?;
         if number == Binding::Vertex as u32 {

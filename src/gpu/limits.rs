@@ -3,7 +3,7 @@
 use wgpu::{Adapter, AdapterInfo, DeviceType, Features, TextureFormat, TextureFormatFeatureFlags};
 
 use super::software_drivers::gathers;
-use crate::plan::{DeviceLimits, PlanError, PlanOptions, RayQueryDefault, RayQueryLimits};
+use crate::plan::{BUILD_HAS_RAY_QUERIES, DeviceLimits, PlanError, PlanOptions, RayQueryDefault, RayQueryLimits};
 
 /// The limits of an adapter that is opened for plans with these options: it has ray queries only where they may be used.
 ///
@@ -17,6 +17,11 @@ pub fn limits_for_plans(adapter: &Adapter, options: &PlanOptions) -> Result<Devi
     }
     let is_verified = options.verified.contains(&driver_identity(&info));
     Ok(limits.with_ray_queries(options.traversal, is_verified))
+}
+
+/// Kernels of this build can use ray queries on the adapter.
+pub fn has_ray_queries(adapter: &Adapter) -> bool {
+    BUILD_HAS_RAY_QUERIES && adapter.features().contains(Features::EXPERIMENTAL_RAY_QUERY)
 }
 
 /// A device with the interface and the version of the driver, as one text.
@@ -51,7 +56,7 @@ fn device_limits(adapter: &Adapter) -> DeviceLimits {
         subgroup_size: one_size.then_some(info.subgroup_min_size),
         gathers: gathers(&info),
         ray_queries: Some(RayQueryLimits { max_primitives: limits.max_blas_primitive_count })
-            .filter(|_| adapter.features().contains(Features::EXPERIMENTAL_RAY_QUERY)),
+            .filter(|_| has_ray_queries(adapter)),
         ray_query_default: RayQueryDefault::No,
         ..DeviceLimits::default()
     }

@@ -1,5 +1,6 @@
 //! Rendering on graphics devices, through wgpu.
 
+#[cfg_attr(not(feature = "ray-query"), path = "no_acceleration.rs")]
 pub mod acceleration;
 pub mod adapters;
 mod band;

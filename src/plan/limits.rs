@@ -53,6 +53,9 @@ pub struct DeviceLimits {
     pub ray_query_default: RayQueryDefault,
 }
 
+/// Kernels of this build can use ray queries: it has the cargo feature `ray-query`.
+pub const BUILD_HAS_RAY_QUERIES: bool = cfg!(feature = "ray-query");
+
 /// Use of ray queries where no option asks for them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RayQueryDefault {
@@ -108,12 +111,16 @@ impl DeviceLimits {
     /// The limits of ray queries.
     ///
     /// # Errors
-    /// [`PlanError::DoesNotFit`] where the device, so called, has no ray queries.
+    /// [`PlanError::DoesNotFit`] where the device, so called, has no ray queries, or this build does without.
     pub fn check_ray_queries(&self, device: &str) -> Result<RayQueryLimits, PlanError> {
         let missing = || {
-            PlanError::DoesNotFit(format!(
-                "{device} has no ray queries, or its driver does not offer them; without `--traversal ray-query` it renders all the same"
-            ))
+            let what = match BUILD_HAS_RAY_QUERIES {
+                true => format!("{device} has no ray queries, or its driver does not offer them"),
+                false => {
+                    "this gpt is built without ray queries, which `cargo build --release --features ray-query` has".to_owned()
+                }
+            };
+            PlanError::DoesNotFit(format!("{what}; without `--traversal ray-query` it renders all the same"))
         };
         self.ray_queries.ok_or_else(missing)
     }

@@ -10,7 +10,7 @@ pub const FILE: &str = "shading/material/lobes.wgsl";
 /// Name under which kernels import the file of further parameters.
 pub const PARAMETERS_FILE: &str = "shading/material/parameters.wgsl";
 
-/// The function that says how much of a lobe a guide may replace.
+/// The function that says how much of a lobe a guide may replace, but for the lobes that are broad.
 const BROAD_SHARE: &str = "
 // The share of the lobe's samples that go in all directions above the surface, mostly evenly, which a guide may replace.
 fn lobe_broad_share(lobe: Lobe) -> f32 {
@@ -20,9 +20,7 @@ fn lobe_broad_share(lobe: Lobe) -> f32 {
         return principled_broad_share(lobe);
     }
 #endif
-    let is_rough_diffuse = kind == OREN_NAYAR || kind == QUALITATIVE_OREN_NAYAR || kind == ENERGY_PRESERVING_OREN_NAYAR;
-    let is_broad = kind == DIFFUSE || is_rough_diffuse || kind == DUST || kind == PLASTIC || kind == ROUGH_PLASTIC;
-    return select(0.0, 1.0, is_broad);
+    return select(0.0, 1.0, BROAD);
 }
 ";
 
@@ -43,7 +41,8 @@ pub fn wgsl() -> String {
     text += &dispatch("lobe_is_non_delta(lobe: Lobe) -> bool", non_delta(), "false", |name| format!("{name}_is_non_delta(lobe)"));
     text += "\n// The share of incoming light that the lobe scatters, roughly, by which a mixture chooses its samples.\n";
     text += &dispatch("lobe_sampling_weight(lobe: Lobe) -> f32", all(), "0.0", |name| format!("{name}_sampling_weight(lobe)"));
-    text += BROAD_SHARE;
+    let is_broad = all().filter(|lobe| lobe.support() == LobeSupport::Broad).map(|lobe| format!("kind == {}", lobe.switch()));
+    text += &BROAD_SHARE.replace("BROAD", &is_broad.collect::<Vec<_>>().join(" || "));
     text += "\n// f |cos| and density; 0 for delta lobes.\n";
     let signature = "evaluate_lobe(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue";
     text += &dispatch(signature, non_delta(), "no_value()", |name| format!("evaluate_{name}(lobe, surface, wo, wi)"));

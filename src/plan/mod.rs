@@ -38,7 +38,7 @@ pub use choices::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, StageMod
 pub use chunks::Chunks;
 pub use error::PlanError;
 pub use fault::Fault;
-pub use limits::{DeviceLimits, RayQueryDefault, RayQueryLimits};
+pub use limits::{BUILD_HAS_RAY_QUERIES, DeviceLimits, RayQueryDefault, RayQueryLimits};
 pub use memory::Memory;
 pub use model::Plan;
 pub use options::{PlanOptions, TraversalChoice};

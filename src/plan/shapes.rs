@@ -42,12 +42,12 @@ pub fn geometry_wgsl() -> String {
 }
 
 /// The text of [`SHADING_FILE`]. A primitive `NAME` has the function `NAME_point`; where points of it are drawn by area, `sample_NAME`; unless
-/// it is infinite, `NAME_direction_pdf`; and where texture coordinates come from its normal, `NAME_attribute` and `NAME_tangents`.
+/// it is infinite, `NAME_direction_pdf`; and where texture coordinates come from its normal, `NAME_uv` and `NAME_tangents`.
 pub fn shading_wgsl() -> String {
     let mut text = "// Written by src/plan/shapes.rs.\n#import core/layout.wgsl\n#import core/math.wgsl\n".to_owned();
-    text += "#import geometry/prepared_ray.wgsl\n#import shading/shape_point.wgsl\n#if ATTRIBUTES\n#import shading/texture/attributes.wgsl\n#endif\n";
+    text += "#import geometry/prepared_ray.wgsl\n#import geometry/shape_point.wgsl\n#if ATTRIBUTES\n#import shading/texture/attributes.wgsl\n#endif\n";
     for kind in all() {
-        text += &format!("#if {}\n#import shading/shape/{}.wgsl\n#endif\n", kind.switch(), kind.file());
+        text += &format!("#if {}\n#import geometry/shape/{}.wgsl\n#endif\n", kind.switch(), kind.file());
     }
     text += "\n// What a ray meets of a primitive, by the points of its record.\n";
     let signature = "shape_point(kind: u32, ray: Ray, hit: Hit, p0: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>) -> ShapePoint";
@@ -69,7 +69,8 @@ pub fn shading_wgsl() -> String {
     let of_normal = || all().filter(|kind| kind.coordinates() == SurfaceCoordinates::Normal);
     text += "\n#if ATTRIBUTES\n// Texture coordinates and an own normal, by the attributes from `first` on.\n";
     let signature = "shape_attribute(kind: u32, first: u32, uv: vec2<f32>, normal: vec3<f32>) -> Attribute";
-    let attributes = of_normal().map(|kind| (kind, kind.switch(), format!("{}_attribute(first, normal)", kind.file())));
+    let attributes =
+        of_normal().map(|kind| (kind, kind.switch(), format!("Attribute(vec3<f32>(0.0), {}_uv(first, normal))", kind.file())));
     text += &dispatch(signature, attributes, "interpolate_attributes(first, uv)");
     text += "#endif\n\n// The directions in which texture coordinates grow; `first` may be NONE.\n";
     text += "fn shape_tangents(kind: u32, first: u32, point: ShapePoint) -> Tangents {\n";

@@ -21,7 +21,7 @@ use crate::reference::bsdf::conductor_reflectance;
 use crate::reference::roulette;
 use crate::sampling::mis::Heuristic;
 use crate::scene::{
-    BlendWeight, ChannelInput, ColorInput, ConductorFresnel, Environment, EnvironmentRadiance, Estimator, Geometry, Guiding,
+    BlendWeight, ChannelInput, ColorInput, ConductorFresnel, Environment, EnvironmentRadiance, Estimator, Guiding,
     HemisphereSampling, Light, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, Scene, Shape,
 };
 use crate::spectrum::Spectrum;
@@ -257,7 +257,7 @@ fn glass_is_closed(scene: &Scene) -> Result<(), Unbounded> {
     }
     let camera = scene.camera.position;
     for shape in scene.shapes.iter().filter(|shape| shape.materials().any(|material| of_glass[material])) {
-        if !is_closed(shape) {
+        if !shape.is_closed() {
             return none(format!("{} is of glass and not closed", shape.label));
         }
         let lens = scene.camera.aperture.as_ref().map_or(0.0, |aperture| aperture.radius);
@@ -268,14 +268,6 @@ fn glass_is_closed(scene: &Scene) -> Result<(), Unbounded> {
         }
     }
     Ok(())
-}
-
-fn is_closed(shape: &Shape) -> bool {
-    match &shape.geometry {
-        Geometry::Sphere(_) | Geometry::Box(_) => true,
-        Geometry::Mesh(mesh) => mesh.face_materials.is_empty() && mesh.is_closed(),
-        _ => false,
-    }
 }
 
 #[cfg(test)]

@@ -32,6 +32,7 @@ shader_files![
     "geometry/ray_query.wgsl",
     "geometry/records.wgsl",
     "geometry/scene.wgsl",
+    "geometry/shape_point.wgsl",
     "geometry/software/lanes.wgsl",
     "geometry/software/packet.wgsl",
     "geometry/software/packet_stack.wgsl",
@@ -117,7 +118,6 @@ shader_files![
     "shading/path/surface_layer.wgsl",
     "shading/path/trace.wgsl",
     "shading/path/transmittance.wgsl",
-    "shading/shape_point.wgsl",
     "shading/sides.wgsl",
     "shading/surface.wgsl",
     "shading/texture/attributes.wgsl",
@@ -148,7 +148,7 @@ shader_files![
 
 /// The file of each lobe in the table of materials.
 macro_rules! lobe_files {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
+    ($($(#[$doc:meta])* $material:ident $(($($boxed:tt)*))? $({$($fields:tt)*})? $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $(($($slots:tt)*))? $([$($parameters:tt)*])?)* })*) => {
         const LOBES: &[(&str, &str)] = &[$($((
             concat!("shading/bsdf/", stringify!($file), ".wgsl"),
             include_str!(concat!("../../shaders/shading/bsdf/", stringify!($file), ".wgsl")),
@@ -179,17 +179,13 @@ macro_rules! camera_files {
 }
 camera_table!(camera_files);
 
-/// The files of each primitive in the table of shapes.
+/// The file of each primitive in the table of shapes.
 macro_rules! shape_files {
     ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         const SHAPES: &[(&str, &str)] = &[$($(
             (
                 concat!("geometry/shape/", stringify!($file), ".wgsl"),
                 include_str!(concat!("../../shaders/geometry/shape/", stringify!($file), ".wgsl")),
-            ),
-            (
-                concat!("shading/shape/", stringify!($file), ".wgsl"),
-                include_str!(concat!("../../shaders/shading/shape/", stringify!($file), ".wgsl")),
             ),
         )?)*];
     };

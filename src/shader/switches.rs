@@ -91,7 +91,7 @@ const IN_HIERARCHY_BESIDE_TRIANGLES: &[&str] = IN_HIERARCHY.split_at(1).1;
 
 /// A switch for each lobe in the table of materials.
 macro_rules! lobes {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
+    ($($(#[$doc:meta])* $material:ident $(($($boxed:tt)*))? $({$($fields:tt)*})? $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident $(($($slots:tt)*))? $([$($parameters:tt)*])?)* })*) => {
         const LOBES: &[Switch] = &[$($(lobes!(@requires $support stringify!($switch)),)*)*];
     };
     (@requires Sphere $name:expr) => { switch($name).requires(&["NON_DELTA_TRANSMISSION"]) };
@@ -139,8 +139,9 @@ const LIGHT_KINDS: &[&str] = &["DELTA_LIGHTS", "AREA_LIGHTS", "SPHERE_LIGHTS", "
 /// Lobes that are a power of the cosine about the mirror direction.
 const COSINE_POWER_LOBES: &[&str] = &["GLOSSY", "PHONG"];
 
-/// Layers, of which a render makes one at most.
+/// Layers, of which a render makes one at most. The first is made of the picture's samples, the others of something else.
 const LAYERS: &[&str] = &[
+    "LAYER_SQUARES",
     "LAYER_ALBEDO",
     "LAYER_DEPTH",
     "LAYER_DIRECT",
@@ -150,23 +151,11 @@ const LAYERS: &[&str] = &[
     "LAYER_NORMAL",
     "LAYER_OBJECT_POSITION",
     "LAYER_POSITION",
-    "LAYER_SQUARES",
     "LAYER_UV",
 ];
 
 /// Layers that are made of something other than the picture's samples.
-const CLAMPED_BY_NONE: &[&str] = &[
-    "LAYER_ALBEDO",
-    "LAYER_DEPTH",
-    "LAYER_DIRECT",
-    "LAYER_EMISSION",
-    "LAYER_INDIRECT",
-    "LAYER_MOTION",
-    "LAYER_NORMAL",
-    "LAYER_OBJECT_POSITION",
-    "LAYER_POSITION",
-    "LAYER_UV",
-];
+const CLAMPED_BY_NONE: &[&str] = LAYERS.split_at(1).1;
 
 /// Layers of the first surface alone.
 const OF_FIRST_SURFACE: &[&str] = &["LAYER_DEPTH", "LAYER_MOTION", "LAYER_OBJECT_POSITION", "LAYER_POSITION", "LAYER_UV"];

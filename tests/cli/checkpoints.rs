@@ -14,6 +14,32 @@ pub fn devices() -> Vec<&'static str> {
     ["cpu", "gpu"].into_iter().filter(|device| *device == "cpu" || gpu).collect()
 }
 
+/// A render of `a.exr` that is interrupted once there is the state `waited_for` keeps it, and goes on from one of that name to the picture of a render that
+/// is not.
+#[cfg(unix)]
+pub fn goes_on(place: &Workplace, render: &str, waited_for: &str, gone_on_from: &str) {
+    let before = place.files();
+    place.expect(0, &format!("{render} -q"));
+    let whole = fs::read(place.path("a.exr")).expect("the picture");
+    fs::remove_file(place.path("a.exr")).expect("it is there");
+    let mut command = place.command(&format!("{render} --checkpoint 0.02"));
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a process");
+    wait_for(place, waited_for);
+    let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("kill");
+    assert!(sent.success());
+    let output = child.wait_with_output().expect("an end");
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("--resume goes on from it") && !place.path("a.exr").exists(), "{said}");
+    // The control: the state is that of this render.
+    let other = place.expect(3, &format!("{render} --resume --seed 7"));
+    assert!(other.contains("--seed"), "{other}");
+    let said = place.expect(0, &format!("{render} --resume"));
+    assert!(said.contains(&format!("going on from {gone_on_from}")), "{said}");
+    assert!(fs::read(place.path("a.exr")).expect("the picture") == whole);
+    assert_eq!(place.files(), [vec!["a.exr".to_owned()], before].concat());
+}
+
 /// Waits until the file is there.
 #[cfg(unix)]
 pub fn wait_for(place: &Workplace, name: &str) {

@@ -3,6 +3,8 @@
 use gpt::output::Channels;
 
 use super::checkpoints::devices;
+#[cfg(unix)]
+use super::checkpoints::goes_on;
 use super::*;
 
 const RENDER: &str = "render spheres -q --size 24x16 --max-depth 4";
@@ -158,25 +160,6 @@ fn finished_layers_are_not_rendered_again() {
 #[test]
 #[ignore = "slow"]
 fn a_layer_that_is_interrupted_goes_on() {
-    let place = Workplace::new();
     let render = "render scene.toml --device cpu --size 64x48 --spp 800 --aov indirect -o a.exr";
-    place.expect(0, &format!("{render} -q"));
-    let whole = fs::read(place.path("a.exr")).expect("the picture");
-    fs::remove_file(place.path("a.exr")).expect("it is there");
-    let mut command = place.command(&format!("{render} --checkpoint 0.02"));
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a process");
-    super::checkpoints::wait_for(&place, "a.exr.checkpoint-indirect");
-    let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("kill");
-    assert!(sent.success());
-    let output = child.wait_with_output().expect("an end");
-    let said = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{said}");
-    assert!(said.contains("--resume goes on from it") && !place.path("a.exr").exists(), "{said}");
-    // The control: the state is that of this layer.
-    let other = place.expect(3, &format!("{render} --resume --seed 7"));
-    assert!(other.contains("--seed"), "{other}");
-    let said = place.expect(0, &format!("{render} --resume"));
-    assert!(said.contains("going on from a.exr.checkpoint-indirect"), "{said}");
-    assert!(fs::read(place.path("a.exr")).expect("the picture") == whole);
-    assert_eq!(place.files(), ["a.exr", "scene.toml"]);
+    goes_on(&Workplace::new(), render, "a.exr.checkpoint-indirect", "a.exr.checkpoint-indirect");
 }

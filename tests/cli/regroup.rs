@@ -3,6 +3,8 @@
 use gpt::output::Channels;
 
 use super::checkpoints::devices;
+#[cfg(unix)]
+use super::checkpoints::goes_on;
 use super::*;
 
 /// Two lamps in groups and one in none, of which one has this radiance. Paths do not depend on how bright lamps are.
@@ -185,24 +187,6 @@ fn a_scene_file_asks_for_groups_and_frames_have_them() {
 #[test]
 #[ignore = "slow"]
 fn a_group_that_is_interrupted_goes_on() {
-    let place = place();
     let render = "render lamps.toml --device cpu --size 64x48 --spp 800 --aov groups -o a.exr";
-    place.expect(0, &format!("{render} -q"));
-    let whole = fs::read(place.path("a.exr")).expect("the picture");
-    fs::remove_file(place.path("a.exr")).expect("it is there");
-    let mut command = place.command(&format!("{render} --checkpoint 0.02"));
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a process");
-    super::checkpoints::wait_for(&place, "a.exr.checkpoint-groups-fill");
-    let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("kill");
-    assert!(sent.success());
-    let output = child.wait_with_output().expect("an end");
-    let said = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{said}");
-    assert!(said.contains("--resume goes on from it") && !place.path("a.exr").exists(), "{said}");
-    let other = place.expect(3, &format!("{render} --resume --seed 7"));
-    assert!(other.contains("--seed"), "{other}");
-    let said = place.expect(0, &format!("{render} --resume"));
-    assert!(said.contains("going on from a.exr.checkpoint-groups-"), "{said}");
-    assert!(fs::read(place.path("a.exr")).expect("the picture") == whole);
-    assert_eq!(place.files(), ["a.exr", "lamps.toml", "scene.toml"]);
+    goes_on(&place(), render, "a.exr.checkpoint-groups-fill", "a.exr.checkpoint-groups-");
 }

@@ -1,6 +1,6 @@
 //! Small mathematics that several steps of the data's way share: colour, outward rounding, frames, what a dielectric reflects.
 
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{BVec3, DAffine3, DVec3, Vec3};
 
 use crate::spectrum::Spectrum;
 
@@ -10,6 +10,11 @@ pub const POINT_ERROR: f64 = 1.0e-6;
 pub const DIRECTION_ERROR: f64 = 2.5e-7;
 /// Share of its length after which a shadow ray ends, on top of the light's own error: one rounding error of its distance.
 pub const SHADOW_SHORTENING: f64 = 0.999_999;
+
+/// The corners of an upright box.
+pub fn box_corners(low: DVec3, high: DVec3) -> [DVec3; 8] {
+    std::array::from_fn(|index| DVec3::select(BVec3::new(index & 1 != 0, index & 2 != 0, index & 4 != 0), high, low))
+}
 
 /// Linear Rec.709 of CIE XYZ: the inverse of the primaries and the white of Rec. ITU-R BT.709.
 pub fn xyz_to_rec709(xyz: DVec3) -> Spectrum {

@@ -1,7 +1,9 @@
 // A ray against a parallelogram: (t or -1, u, v). The points of its record are a corner and the edges from it.
 #import core/layout.wgsl
-#import geometry/prepared_ray.wgsl
+#import core/math.wgsl
 #import geometry/motion.wgsl
+#import geometry/prepared_ray.wgsl
+#import geometry/shape_point.wgsl
 
 fn intersect_quad(ray: PreparedRay, t_max: f32, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> vec3<f32> {
     let p = cross(ray.direction, edge_v);
@@ -32,4 +34,17 @@ fn intersect_quad_constant(
 fn move_quad(motion: Motion, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> MovedPoints {
     let size = abs(corner) + abs(edge_u) + abs(edge_v);
     return MovedPoints(moved_point(motion, corner), motion.linear * edge_u, motion.linear * edge_v, size);
+}
+
+fn quad_point(ray: Ray, hit: Hit, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> ShapePoint {
+    return flat_point(corner, edge_u, edge_v, vec2<f32>(hit.u, hit.v), 1.0, 0.0);
+}
+
+fn sample_quad(corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>, u: f32, v: f32) -> ShapePoint {
+    return drawn_flat_point(corner, edge_u, edge_v, vec2<f32>(u, v), 0.0);
+}
+
+fn quad_direction_pdf(ray: PreparedRay, corner: vec4<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> f32 {
+    let t = intersect_quad(ray, INFINITY_DISTANCE, corner.xyz, edge_u, edge_v).x;
+    return area_pdf_by_solid_angle(t, ray.direction, normalize(cross(edge_u, edge_v)), corner.w);
 }

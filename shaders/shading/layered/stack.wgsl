@@ -5,7 +5,7 @@
 #import geometry/scene.wgsl
 #import shading/surface.wgsl
 #import shading/material/lobe.wgsl
-#import shading/shape_point.wgsl
+#import geometry/shape_point.wgsl
 #import shading/texture/tangent_space.wgsl
 #import shading/texture/texture.wgsl
 

@@ -7,7 +7,7 @@
 #import shading/light/record.wgsl
 #import shading/light/seen_place.wgsl
 #import shading/light/textured.wgsl
-#import shading/shape_point.wgsl
+#import geometry/shape_point.wgsl
 #import shading/shapes.wgsl
 #import shading/surface.wgsl
 

@@ -12,6 +12,7 @@
 #import shading/light/outside.wgsl
 #import shading/light/portal.wgsl
 #import shading/light/record.wgsl
+#import geometry/shape/sphere.wgsl
 #import shading/light/sphere_light.wgsl
 #import shading/light/textured.wgsl
 #import shading/path/planted.wgsl

@@ -40,17 +40,6 @@ fn sphere_cone_sample(
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf / (TWO_PI * one_minus_cos_max));
 }
 
-fn sphere_cone_pdf(reference: vec3<f32>, center: vec3<f32>, radius: f32) -> f32 {
-    let to_center = center - reference;
-    let center_distance2 = dot(to_center, to_center);
-    let radius2 = radius * radius;
-    if center_distance2 <= radius2 {
-        return 0.25 * INVERSE_PI;
-    }
-    let sin2_max = radius2 / center_distance2;
-    return (1.0 + sqrt(max(0.0, 1.0 - sin2_max))) / (TWO_PI * sin2_max);
-}
-
 // To the point with this normal, of which so large an area was drawn from evenly. From outside, the sphere hides its own far side.
 fn sphere_sample_of_point(
     reference: vec3<f32>, center: vec3<f32>, radius: f32, normal: vec3<f32>, radiance: Spectrum, two_sided: bool, pmf: f32, area: f32

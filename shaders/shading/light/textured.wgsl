@@ -7,8 +7,8 @@
 #import shading/light/sphere_light.wgsl
 #import shading/material/bsdf.wgsl
 #import shading/material/seen.wgsl
-#import shading/shape/sphere.wgsl
-#import shading/shape_point.wgsl
+#import geometry/shape/sphere.wgsl
+#import geometry/shape_point.wgsl
 #import shading/shapes.wgsl
 #import shading/surface.wgsl
 #import shading/texture/attributes.wgsl

@@ -8,7 +8,7 @@
 #import shading/material/parameters.wgsl
 #import shading/microfacet/microfacet.wgsl
 #import shading/surface.wgsl
-#import shading/shape_point.wgsl
+#import geometry/shape_point.wgsl
 #import shading/texture/tangent_space.wgsl
 
 struct Coat {

@@ -2,7 +2,7 @@
 #import core/layout.wgsl
 #import geometry/records.wgsl
 #import shading/texture/coordinates.wgsl
-#import shading/shape_point.wgsl
+#import geometry/shape_point.wgsl
 #import geometry/instance.wgsl
 #import geometry/motion.wgsl
 

@@ -4,7 +4,7 @@
 #import core/layout.wgsl
 #import geometry/scene.wgsl
 #import shading/texture/coordinates.wgsl
-#import shading/shape_point.wgsl
+#import geometry/shape_point.wgsl
 #import shading/texture/tangent_space.wgsl
 #import shading/texture/tangents.wgsl
 #import shading/texture/texture.wgsl

@@ -1,5 +1,5 @@
 // The space that normal maps are written in.
-#import shading/shape_point.wgsl
+#import geometry/shape_point.wgsl
 
 // The direction that stands for `local` about a normal: x along the tangent, in which u grows, y along the
 // bitangent, on the side where v grows; 0 if there is no tangent. src/reference/intersect/normal_map.rs is

@@ -1,6 +1,6 @@
 // The directions in which texture coordinates of either set grow.
 #import core/layout.wgsl
-#import shading/shape_point.wgsl
+#import geometry/shape_point.wgsl
 #import shading/shapes.wgsl
 #import shading/texture/attributes.wgsl
 

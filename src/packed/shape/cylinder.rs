@@ -7,6 +7,7 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 use super::element::Element;
 use super::placement::Placement;
 use super::rectangle::QUAD_OVERLAP;
+use crate::emission_map::Unrolled;
 use crate::math::outward;
 use crate::packed::attributes::TriangleAttributes;
 use crate::scene;
@@ -37,6 +38,8 @@ pub struct Cylinder {
 }
 
 impl Element for Cylinder {
+    const UNROLLED: Option<Unrolled> = Some(Unrolled::Evenly);
+
     fn moved(&self, map: &DAffine3) -> Self {
         Self {
             from: map.transform_point3(self.from),

@@ -2,8 +2,13 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 
+use crate::emission_map::Unrolled;
+
 /// A primitive in world space.
 pub trait Element: Copy {
+    /// How whole ones are drawn by what they show, where they can be: `unrolled` of the reference says the same.
+    const UNROLLED: Option<Unrolled> = None;
+
     /// The element under a motion. Round ones are scaled by the same factor along every axis.
     fn moved(&self, map: &DAffine3) -> Self;
 

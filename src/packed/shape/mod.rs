@@ -63,7 +63,14 @@ macro_rules! modules {
                 }
             }
 
-            /// Its name in the names of its files in `shaders/geometry/shape/` and `shaders/shading/shape/`, and of the functions there.
+            /// How whole ones of it are drawn by what they show, where they can be.
+            pub fn unrolled(self) -> Option<Unrolled> {
+                match self {
+                    $($(Self::$primitive => <$module::$primitive as Element>::UNROLLED,)?)*
+                }
+            }
+
+            /// Its name in the name of its file in `shaders/geometry/shape/`, and in those of the functions there.
             pub fn file(self) -> &'static str {
                 match self {
                     $($(Self::$primitive => stringify!($file),)?)*
@@ -214,15 +221,6 @@ impl PrimitiveKind {
     /// True of a shape with neither bounds nor area: it is in no hierarchy, and is neither light nor portal.
     pub fn is_infinite(self) -> bool {
         self.sampling() == SurfaceSampling::Infinite
-    }
-
-    /// How whole ones of it are drawn by what they show, where they can be.
-    pub fn unrolled(self) -> Option<Unrolled> {
-        match self {
-            Self::Quad | Self::Cylinder => Some(Unrolled::Evenly),
-            Self::Sphere => Some(Unrolled::Sphere),
-            Self::Triangle | Self::Disk | Self::Plane => None,
-        }
     }
 
     /// The kind of a record's number.

@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::element::Element;
 use super::placement::Placement;
+use crate::emission_map::Unrolled;
 use crate::math::outward;
 use crate::packed::attributes::TriangleAttributes;
 use crate::scene::Rectangle;
@@ -40,6 +41,8 @@ impl Quad {
 }
 
 impl Element for Quad {
+    const UNROLLED: Option<Unrolled> = Some(Unrolled::Evenly);
+
     fn moved(&self, map: &DAffine3) -> Self {
         Self {
             corner: map.transform_point3(self.corner),

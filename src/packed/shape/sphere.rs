@@ -6,6 +6,7 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::element::Element;
 use super::placement::Placement;
+use crate::emission_map::Unrolled;
 use crate::math::outward;
 use crate::packed::attributes::TriangleAttributes;
 use crate::scene;
@@ -27,6 +28,8 @@ pub struct Sphere {
 }
 
 impl Element for Sphere {
+    const UNROLLED: Option<Unrolled> = Some(Unrolled::Sphere);
+
     fn moved(&self, map: &DAffine3) -> Self {
         Self { center: map.transform_point3(self.center), radius: self.radius * map.matrix3.x_axis.length() }
     }

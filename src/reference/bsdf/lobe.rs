@@ -5,35 +5,26 @@ use glam::DVec3;
 use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Evaluation, Scatter};
 use super::view::View;
-use crate::scene::MaterialKind;
+use crate::scene::{LobeKind, LobeSupport, MaterialKind};
 
 /// The lobes in the table of materials, and their contract handed on to each.
 macro_rules! lobes {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
+    ($($(#[$doc:meta])* $material:ident $(($($boxed:tt)*))? $({$($fields:tt)*})? $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident $(($($slots:tt)*))? $([$($parameters:tt)*])?)* })*) => {
         /// One of the lobes that materials scatter by.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum Lobe { $($($lobe(super::$file::$lobe),)*)* }
 
         impl Lobe {
             /// Its row in the table.
-            #[cfg(test)]
-            pub fn kind(&self) -> crate::scene::LobeKind {
-                match self { $($(Self::$lobe(_) => crate::scene::LobeKind::$lobe,)*)* }
+            pub fn kind(&self) -> LobeKind {
+                match self { $($(Self::$lobe(_) => LobeKind::$lobe,)*)* }
             }
-        }
 
-        impl Lobe {
             /// The share of the lobe's samples that go in all directions above the surface, mostly evenly, which a guide may replace.
             pub fn broad_share(&self) -> f64 {
                 match self {
-                    Self::Diffuse(_)
-                    | Self::OrenNayar(_)
-                    | Self::QualitativeOrenNayar(_)
-                    | Self::EnergyPreservingOrenNayar(_)
-                    | Self::Dust(_)
-                    | Self::Plastic(_)
-                    | Self::RoughPlastic(_) => 1.0,
                     Self::Principled(lobe) => lobe.layers.broad_share(),
+                    lobe if lobe.kind().support() == LobeSupport::Broad => 1.0,
                     _ => 0.0,
                 }
             }

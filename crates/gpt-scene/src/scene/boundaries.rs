@@ -3,7 +3,7 @@
 use super::material::Material;
 use super::medium::MediumId;
 use super::model::Scene;
-use super::shape::{Geometry, Shape};
+use super::shape::{Enclosure, Shape};
 
 impl Scene {
     /// Sentences about media that are nowhere, and about surfaces behind which a medium begins and never ends.
@@ -37,14 +37,11 @@ impl Scene {
 /// The reason why a shape by itself is no boundary of a body, to be followed by the medium's name.
 fn fault_of(shape: &Shape) -> Option<&'static str> {
     const OPEN: &str = "the shape is open, so a ray that goes around its edge does not leave";
-    match &shape.geometry {
-        Geometry::Rectangle(_) | Geometry::Disk(_) | Geometry::Cylinder(_) => Some(OPEN),
-        Geometry::Mesh(mesh) if mesh.looks_inward() => {
-            Some("the fronts of its faces look inward, so everything around it is filled with")
-        }
+    match shape.geometry.enclosure() {
+        Enclosure::Surroundings => Some("the fronts of its faces look inward, so everything around it is filled with"),
         // Faces of other materials may close it.
-        Geometry::Mesh(mesh) if mesh.face_materials.is_empty() && !mesh.is_closed() => Some(OPEN),
-        _ => None,
+        Enclosure::None if shape.face_materials_agree() => Some(OPEN),
+        Enclosure::None | Enclosure::Body | Enclosure::Half => None,
     }
 }
 

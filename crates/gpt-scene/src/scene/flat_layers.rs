@@ -1,7 +1,7 @@
 //! The interfaces of a scene's stacks, one after the other, and the rules that they keep.
 
 use super::material::{
-    BlendWeight, MOST_INTERFACES, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, Slab,
+    BlendWeight, LobeSupport, MOST_INTERFACES, Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, Slab,
 };
 use super::medium::MediumId;
 use super::model::Scene;
@@ -81,12 +81,6 @@ impl Scene {
             }
         };
         match &self.materials[material].kind {
-            MaterialKind::Diffuse { .. }
-            | MaterialKind::OrenNayar { .. }
-            | MaterialKind::Dust { .. }
-            | MaterialKind::DiffuseTransmission { .. }
-            | MaterialKind::Phong { .. }
-            | MaterialKind::Plastic { .. } => 1.0,
             MaterialKind::Glossy { exponent, .. } => of_exponent(of_input(exponent)),
             MaterialKind::RoughGlass { facets, .. } | MaterialKind::Conductor { facets, .. } => of_facets(facets),
             MaterialKind::Principled(principled) => match principled.metallic {
@@ -96,11 +90,10 @@ impl Scene {
                 _ => 1.0,
             },
             MaterialKind::Blend { materials, .. } => materials.iter().map(|&part| self.breadth(part)).fold(0.0, f64::max),
-            MaterialKind::Mirror { .. }
-            | MaterialKind::Glass { .. }
-            | MaterialKind::Emissive
-            | MaterialKind::Pass
-            | MaterialKind::Layered(_) => 0.0,
+            other => match other.lobe().map(|lobe| lobe.lobe.support()) {
+                None | Some(LobeSupport::Delta) => 0.0,
+                Some(LobeSupport::Hemisphere | LobeSupport::Broad | LobeSupport::Sphere) => 1.0,
+            },
         }
     }
 

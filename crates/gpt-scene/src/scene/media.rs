@@ -12,7 +12,7 @@ use super::material::{Material, MaterialId, MaterialKind};
 use super::medium::{Medium, MediumId, Phase};
 use super::medium_grids::MediumGrids;
 use super::model::Scene;
-use super::shape::{Geometry, Shape};
+use super::shape::{Enclosure, Shape};
 use super::texture::ColorInput;
 use crate::spectrum::Spectrum;
 
@@ -235,13 +235,9 @@ fn dark_media(scene: &Scene, media: &Media) -> Vec<bool> {
     };
     let keeps_out = |shape: &Shape| {
         // Edges of a large mesh take longest to look at.
-        let is_closed = || match &shape.geometry {
-            Geometry::Sphere(_) | Geometry::Box(_) => true,
-            Geometry::Mesh(mesh) => mesh.is_closed() && !mesh.looks_inward(),
-            Geometry::Rectangle(_) | Geometry::Disk(_) | Geometry::Cylinder(_) | Geometry::Plane(_) => false,
-        };
+        let is_body = || shape.geometry.enclosure() == Enclosure::Body;
         let is_at_rest = !moves(shape) && shape.face_materials_agree() && !lets_through[shape.material];
-        is_at_rest && shape.bounds().is_some_and(|bounds| !may_be_within(bounds)) && is_closed()
+        is_at_rest && shape.bounds().is_some_and(|bounds| !may_be_within(bounds)) && is_body()
     };
     let of_groups = scene.groups.iter().flat_map(|group| &group.shapes);
     for (shape, is_alone) in scene.shapes.iter().map(|shape| (shape, true)).chain(of_groups.map(|shape| (shape, false))) {

@@ -34,6 +34,13 @@ pub struct ChannelInput {
     pub is_squared: bool,
 }
 
+impl From<f64> for ColorInput {
+    /// One number in place of a texture.
+    fn from(number: f64) -> Self {
+        Self::grey(number)
+    }
+}
+
 impl ColorInput {
     pub fn grey(value: f64) -> Self {
         Self::Constant(Spectrum::grey(value))

@@ -5,8 +5,7 @@
 //! that renders the same picture, bit for bit.
 //!
 //! `losses` names what the formats of other programs cannot say. Modules that several of them need: `inputs` and `weights`, functions of texels; `pictures`,
-//! those that are made of others; `tessellation`, shapes as triangles; `surroundings`, the media on both sides of shapes; `emission`, the light of
-//! blends.
+//! those that are made of others; `surroundings`, the media on both sides of shapes; `emission`, the light of blends.
 
 mod animation;
 mod camera;
@@ -25,7 +24,6 @@ mod scene_file;
 mod settings;
 mod shape;
 mod surroundings;
-mod tessellation;
 mod texture;
 mod weights;
 mod written;

@@ -5,13 +5,12 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::outline::{corners, outline};
 use crate::load::error::SceneError;
 use crate::load::file::instance::{GroupEntry, InstanceEntry};
 use crate::load::file::light_link::ReceiverName;
 use crate::load::file::material::MaterialEntry;
 use crate::load::file::reference::FileOr;
-use crate::load::file::shape::{ShapeEntry, TransformEntry};
+use crate::load::file::shape::{ShapeEntry, TransformEntry, box_around};
 use crate::load::file::syntax::SceneFile;
 use crate::load::file::value::Located;
 use crate::load::place::Place;
@@ -126,7 +125,7 @@ impl Description {
         }
         let placed = |shape: &Located<ShapeEntry>| {
             let map = map_of(shape.value.common().transform);
-            outline(&shape.value).into_iter().map(move |point| map.transform_point3(point))
+            shape.value.outline().into_iter().map(move |point| map.transform_point3(point))
         };
         self.file.shape.iter().flat_map(placed).collect()
     }
@@ -142,7 +141,7 @@ impl Description {
             let mut own: Vec<DVec3> = shapes.flat_map(|shape| self.points_of_shape(&shape.value)).collect();
             let places = places_of(instance);
             if own.len().saturating_mul(places.len()) > MOST_POINTS {
-                own = corners(&own);
+                own = box_around(&own);
             }
             points.extend(places.iter().flat_map(|place| own.iter().map(move |point| place.transform_point3(*point))));
         }
@@ -165,7 +164,7 @@ impl Description {
         let map = map_of(shape.common().transform);
         let points = match mesh_of(shape) {
             Some(_) => self.points_of_shape(shape),
-            None => outline(shape).into_iter().map(|point| map.transform_point3(point)).collect(),
+            None => shape.outline().into_iter().map(|point| map.transform_point3(point)).collect(),
         };
         let low = points.iter().copied().reduce(DVec3::min)?;
         Some([low, points.into_iter().fold(low, DVec3::max)])

@@ -11,7 +11,6 @@ mod input;
 mod maps;
 pub mod measured_media;
 mod mesh;
-mod outline;
 mod relief;
 mod triangle_memory;
 mod within;

@@ -4,6 +4,7 @@ use super::blend_weight::BlendWeight;
 use super::dispersion::{Dispersion, iors};
 use super::layers::LayerStack;
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
+use super::numbers::{Numbers, each};
 use super::parameters::{self, ParameterType, place};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
 use super::principled::Principled;
@@ -12,62 +13,58 @@ use super::thin_film::ThinFilm;
 use crate::scene::texture::ColorInput;
 use crate::spectrum::Spectrum;
 
-/// The material of a surface, with its parameters.
-#[derive(Debug, Clone)]
-pub enum MaterialKind {
-    /// Lambert: f = ρ/π.
-    Diffuse { reflectance: ColorInput },
-    /// Perfect mirror.
-    Mirror { reflectance: ColorInput },
-    /// Cosine-power lobe about the mirror direction: f = ρ (n+2)/(2π) cosⁿα.
-    Glossy { reflectance: ColorInput, exponent: ColorInput },
-    /// Modified Phong (Lafortune and Willems 1994).
-    Phong { diffuse: ColorInput, specular: ColorInput, exponent: ColorInput },
-    /// Facets that Lambert's law holds for each, by Oren and Nayar (1994) or after them.
-    OrenNayar { reflectance: ColorInput, roughness: ColorInput, model: RoughDiffuseModel },
-    /// A thin layer of particles that scatter light once (Blinn 1982), above a Lambert surface of reflectance `base`. `albedo` is the share of light that a
-    /// particle scatters, `thickness` the optical one along the normal, and `anisotropy` the mean cosine of Henyey and Greenstein's phase function.
-    Dust { albedo: ColorInput, thickness: ColorInput, anisotropy: f64, base: ColorInput },
-    /// A sheet that Lambert's law holds for on both sides: f = ρ/π for light from the side that is seen, τ/π for light from the other one.
-    /// A sum ρ + τ of more than 1 divides both.
-    DiffuseTransmission { reflectance: ColorInput, transmittance: ColorInput },
-    /// Smooth dielectric with exact Fresnel equations. `ior` is inside over outside, the outside being where the normal points; a `thin` one
-    /// is a plate of both boundaries, which light crosses without changing its direction. Glass with a `film`, or of which `dispersion` says how `ior`, the
-    /// index at the line d, depends on the wavelength, is not `thin`.
-    Glass {
-        ior: f64,
-        reflectance: ColorInput,
-        transmittance: ColorInput,
-        thin: bool,
-        film: Option<ThinFilm>,
-        dispersion: Option<Dispersion>,
-    },
-    /// Rough dielectric; of a `thin` one every microfacet is a thin plate. Glass with a `film` or `dispersion` is not `thin`, nor of
-    /// Phong's distribution.
-    RoughGlass {
-        ior: f64,
-        facets: Microfacets,
-        reflectance: ColorInput,
-        transmittance: ColorInput,
-        thin: bool,
-        film: Option<ThinFilm>,
-        dispersion: Option<Dispersion>,
-    },
-    /// A diffuse base below a dielectric surface; `nonlinear` takes account of how the colour deepens as light goes up and down within.
-    Plastic { interface: PlasticInterface, reflectance: ColorInput, specular_reflectance: ColorInput, nonlinear: bool },
-    /// Conductor of microfacets, smooth where their width is 0. What it reflects is multiplied by `specular_reflectance`.
-    Conductor { fresnel: ConductorFresnel, facets: Microfacets, specular_reflectance: ColorInput, film: Option<ThinFilm> },
-    /// The material of glTF 2.0's Appendix B.
-    Principled(Box<Principled>),
-    /// Reflects nothing; what it emits is the material's `emission`.
-    Emissive,
-    /// w0·first + (1 − w0)·second.
-    Blend { materials: [MaterialId; 2], weight: BlendWeight },
-    /// Interfaces one above the other, and what lies between them.
-    Layered(Box<LayerStack>),
-    /// The ray goes on as if nothing were there.
-    Pass,
+/// The columns of the table of materials about their parameters.
+macro_rules! kinds {
+    (@slots $lobe:ident [] [$($name:ident),*]) => { None };
+    (@slots $lobe:ident [($($slot:ident: $filling:ident),*)] [$($name:ident),*]) => {
+        Some(LobeParameters {
+            $($slot: (*$filling).into(),)*
+            further: kinds!(@further $lobe $($name)*),
+            ..LobeParameters::new(LobeKind::$lobe, ColorInput::grey(0.0))
+        })
+    };
+    (@further $lobe:ident) => { Vec::new() };
+    (@further $lobe:ident $($name:ident)+) => { parameters::$lobe { $($name: (*$name).into()),* }.list() };
+    ($($(#[$doc:meta])* $material:ident $(($boxed:ident: $box_type:ty))? $({ $($field:ident: $type:ty),* $(,)? })? $type_name:ident {
+        $($lobe:ident $file:ident $number:ident $support:ident $(($($slot:ident: $filling:ident),*))?
+            $([$($name:ident: $parameter_type:ident $(= $default:literal)?),*])?)*
+    })*) => {
+        /// The material of a surface, with its parameters.
+        #[derive(Debug, Clone)]
+        pub enum MaterialKind {
+            $($(#[$doc])* $material $(($box_type))? $({ $($field: $type),* })?,)*
+        }
+
+        impl MaterialKind {
+            /// All types, as scene files write them.
+            pub const TYPE_NAMES: &'static [&'static str] = &[$(stringify!($type_name)),*];
+
+            /// The type's name in scene files.
+            pub fn type_name(&self) -> &'static str {
+                match self { $(Self::$material { .. } => stringify!($type_name)),* }
+            }
+
+            /// The lobe of a material whose row says what is in which slot.
+            #[allow(unused_variables)] // of materials whose row does not
+            fn lobe_by_slots(&self) -> Option<LobeParameters> {
+                match self {
+                    $(Self::$material $(($boxed))? $({ $($field),* })? => {
+                        None$(.or(kinds!(@slots $lobe [$(($($slot: $filling),*))?] [$($($name),*)?])))*
+                    })*
+                }
+            }
+        }
+
+        impl Numbers for MaterialKind {
+            fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+                match self {
+                    $(Self::$material $(($boxed))? $({ $($field),* })? => each!(visit: $($boxed)? $($($field),*)?),)*
+                }
+            }
+        }
+    };
 }
+material_table!(kinds);
 
 /// How facets that Lambert's law holds for are seen together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,12 +77,23 @@ pub enum RoughDiffuseModel {
     EnergyPreserving,
 }
 
+impl Numbers for RoughDiffuseModel {}
+
 #[derive(Debug, Clone)]
 pub enum ConductorFresnel {
     /// Complex index of refraction eta + ik, per RGB channel.
     Complex { eta: Spectrum, k: Spectrum },
     /// Schlick's approximation from the reflectance at normal incidence.
     Reflectance(ColorInput),
+}
+
+impl Numbers for ConductorFresnel {
+    fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        match self {
+            Self::Complex { eta, k } => each!(visit: eta, k),
+            Self::Reflectance(reflectance) => reflectance.each_number(visit),
+        }
+    }
 }
 
 /// A lobe and its parameters, in the slots that tables of materials have for them.
@@ -189,16 +197,6 @@ impl MaterialKind {
     /// The lobe that the material scatters by; None of a material that scatters nothing, or by its parts.
     pub fn lobe(&self) -> Option<LobeParameters> {
         Some(match *self {
-            Self::Diffuse { reflectance } => LobeParameters::new(LobeKind::Diffuse, reflectance),
-            Self::Mirror { reflectance } => LobeParameters::new(LobeKind::Mirror, reflectance),
-            Self::Glossy { reflectance, exponent } => {
-                LobeParameters { roughness: Some(exponent), ..LobeParameters::new(LobeKind::Glossy, reflectance) }
-            }
-            Self::Phong { diffuse, specular, exponent } => LobeParameters {
-                color1: Some(specular),
-                roughness: Some(exponent),
-                ..LobeParameters::new(LobeKind::Phong, diffuse)
-            },
             Self::OrenNayar { reflectance, roughness, model } => {
                 let lobe = match model {
                     RoughDiffuseModel::Full => LobeKind::OrenNayar,
@@ -206,15 +204,6 @@ impl MaterialKind {
                     RoughDiffuseModel::EnergyPreserving => LobeKind::EnergyPreservingOrenNayar,
                 };
                 LobeParameters { roughness: Some(roughness), ..LobeParameters::new(lobe, reflectance) }
-            }
-            Self::Dust { albedo, thickness, anisotropy, base } => LobeParameters {
-                color1: Some(base),
-                roughness: Some(thickness),
-                further: parameters::Dust { anisotropy: ColorInput::grey(anisotropy) }.list(),
-                ..LobeParameters::new(LobeKind::Dust, albedo)
-            },
-            Self::DiffuseTransmission { reflectance, transmittance } => {
-                LobeParameters { color1: Some(transmittance), ..LobeParameters::new(LobeKind::DiffuseTransmission, reflectance) }
             }
             Self::Glass { ior, reflectance, transmittance, thin, film: None, dispersion: None } => LobeParameters {
                 color1: Some(transmittance),
@@ -298,8 +287,7 @@ impl MaterialKind {
                 LobeParameters { form, color1, further, ..LobeParameters::new(LobeKind::Conductor, color0) }.with_facets(&facets)
             }
             Self::Principled(ref principled) => principled.lobe(),
-            Self::Pass => LobeParameters::new(LobeKind::Null, ColorInput::grey(0.0)),
-            Self::Emissive | Self::Blend { .. } | Self::Layered(_) => return None,
+            _ => return self.lobe_by_slots(),
         })
     }
 }
@@ -420,19 +408,3 @@ impl LobeKind {
         self.parameters().iter().any(|parameter| parameter.default.is_none())
     }
 }
-
-/// The column of the table of materials about their types in scene files.
-macro_rules! type_names {
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident $([$($parameters:tt)*])?)* })*) => {
-        impl MaterialKind {
-            /// All types, as scene files write them.
-            pub const TYPE_NAMES: &'static [&'static str] = &[$(stringify!($type_name)),*];
-
-            /// The type's name in scene files.
-            pub fn type_name(&self) -> &'static str {
-                match self { $(Self::$material { .. } => stringify!($type_name)),* }
-            }
-        }
-    };
-}
-material_table!(type_names);

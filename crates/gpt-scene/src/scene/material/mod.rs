@@ -3,6 +3,7 @@
 mod albedo;
 mod blend_weight;
 pub mod dispersion;
+mod form;
 mod kind;
 mod layers;
 mod microfacets;

@@ -1,62 +1,31 @@
-//! The numbers of a material that keyframes change, in an order that its form gives: all but textures, and all that is one thing or another.
+//! The numbers in parts of materials that keyframes change: all but textures, and all that is one thing or another.
 
 use super::blend_weight::BlendWeight;
 use super::dispersion::Dispersion;
-use super::kind::{ConductorFresnel, MaterialKind};
+use super::layers::LayerStack;
 use super::microfacets::{MicrofacetDistribution, Microfacets};
 use super::plastic::PlasticInterface;
 use super::principled::{Attenuation, CoatNormalMap, Principled, Subsurface};
+use super::table::MaterialId;
 use super::thin_film::ThinFilm;
-use super::{Emission, Material};
 use crate::scene::texture::{ChannelInput, ColorInput};
 use crate::spectrum::Spectrum;
 
-/// A part of a material that holds numbers.
-trait Numbers {
+/// A part of a material that holds numbers, or none.
+pub trait Numbers {
     /// Calls this with each number, which may be changed.
-    fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64));
+    fn each_number(&mut self, _visit: &mut dyn FnMut(&mut f64)) {}
 }
 
 /// Visits several parts one after the other.
 macro_rules! each {
     ($visit:ident: $($part:expr),* $(,)?) => {{ $( $part.each_number($visit); )* }};
 }
+pub(super) use each;
 
-impl Material {
-    /// Its numbers. Those of two materials of one form stand for the same.
-    pub fn numbers(&self) -> Vec<f64> {
-        let mut found = Vec::new();
-        self.clone().each_number(&mut |number| found.push(*number));
-        found
-    }
+impl Numbers for bool {}
 
-    /// The material with other numbers, in the same order; those that are missing stay.
-    pub fn with_numbers(&self, numbers: &[f64]) -> Self {
-        let mut changed = self.clone();
-        let mut next = numbers.iter();
-        changed.each_number(&mut |number| *number = next.next().copied().unwrap_or(*number));
-        changed
-    }
-
-    /// Both are the same but for their names and numbers.
-    pub fn has_form_of(&self, other: &Self) -> bool {
-        let form = |material: &Self| {
-            let mut form = Self { name: String::new(), ..material.clone() };
-            form.each_number(&mut |number| *number = 0.0);
-            format!("{form:?}")
-        };
-        form(self) == form(other)
-    }
-
-    /// Both scatter and emit alike, at every place of a surface.
-    pub fn looks_like(&self, other: &Self) -> bool {
-        self.numbers() == other.numbers() && self.has_form_of(other)
-    }
-
-    fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
-        each!(visit: self.kind, self.emission);
-    }
-}
+impl Numbers for [MaterialId; 2] {}
 
 impl Numbers for f64 {
     fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
@@ -75,6 +44,12 @@ impl Numbers for Spectrum {
 impl<T: Numbers> Numbers for Option<T> {
     fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         self.iter_mut().for_each(|part| part.each_number(visit));
+    }
+}
+
+impl<T: Numbers> Numbers for Box<T> {
+    fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.as_mut().each_number(visit);
     }
 }
 
@@ -137,12 +112,6 @@ impl Numbers for Dispersion {
     }
 }
 
-impl Numbers for Emission {
-    fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
-        self.radiance.each_number(visit);
-    }
-}
-
 impl Numbers for BlendWeight {
     fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         match self {
@@ -191,35 +160,8 @@ impl Numbers for CoatNormalMap {
     }
 }
 
-impl Numbers for MaterialKind {
+impl Numbers for LayerStack {
     fn each_number(&mut self, visit: &mut dyn FnMut(&mut f64)) {
-        match self {
-            Self::Diffuse { reflectance } | Self::Mirror { reflectance } => reflectance.each_number(visit),
-            Self::Glossy { reflectance, exponent } => each!(visit: reflectance, exponent),
-            Self::Phong { diffuse, specular, exponent } => each!(visit: diffuse, specular, exponent),
-            Self::OrenNayar { reflectance, roughness, .. } => each!(visit: reflectance, roughness),
-            Self::Dust { albedo, thickness, anisotropy, base } => each!(visit: albedo, thickness, anisotropy, base),
-            Self::DiffuseTransmission { reflectance, transmittance } => each!(visit: reflectance, transmittance),
-            Self::Glass { ior, reflectance, transmittance, film, dispersion, .. } => {
-                each!(visit: ior, reflectance, transmittance, film, dispersion);
-            }
-            Self::RoughGlass { ior, facets, reflectance, transmittance, film, dispersion, .. } => {
-                each!(visit: ior, facets, reflectance, transmittance, film, dispersion);
-            }
-            Self::Plastic { interface, reflectance, specular_reflectance, .. } => {
-                each!(visit: interface, reflectance, specular_reflectance);
-            }
-            Self::Conductor { fresnel, facets, specular_reflectance, film } => {
-                match fresnel {
-                    ConductorFresnel::Complex { eta, k } => each!(visit: eta, k),
-                    ConductorFresnel::Reflectance(reflectance) => reflectance.each_number(visit),
-                }
-                each!(visit: facets, specular_reflectance, film);
-            }
-            Self::Principled(principled) => principled.each_number(visit),
-            Self::Blend { weight, .. } => weight.each_number(visit),
-            Self::Layered(layers) => layers.slabs.iter_mut().for_each(|slab| slab.thickness.each_number(visit)),
-            Self::Emissive | Self::Pass => {}
-        }
+        self.slabs.iter_mut().for_each(|slab| slab.thickness.each_number(visit));
     }
 }

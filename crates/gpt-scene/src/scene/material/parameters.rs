@@ -35,7 +35,7 @@ pub struct Parameter {
 macro_rules! parameters {
     (@default) => { None };
     (@default $default:literal) => { Some($default) };
-    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident
+    ($($(#[$doc:meta])* $material:ident $(($($boxed:tt)*))? $({$($fields:tt)*})? $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident $(($($slots:tt)*))?
         $([$($name:ident: $parameter_type:ident $(= $default:literal)?),*])?)* })*) => {
         $($($(
             #[doc = concat!("The further parameters of the lobe `", stringify!($file), "`.")]

@@ -1,8 +1,11 @@
 //! Cylinders: open tubes.
 
+use std::f64::consts::{PI, TAU};
+
 use glam::{DAffine3, DVec3};
 
-use super::model::{Extent, ShapeModel, possible};
+use super::model::{Enclosure, Extent, ShapeModel, around_box, possible};
+use super::tessellation::{SEGMENTS, Tessellated, facing_normals, of_rows};
 use crate::scene::check::{Check, is_positive};
 
 /// The wall of a tube between two points, without caps; normal outward. v grows from 0 at `from` to 1 at `to`, and u about the axis: in turns
@@ -33,6 +36,27 @@ impl ShapeModel for Cylinder {
         let [from, to] = [self.from, self.to].map(|end| map.transform_point3(end).distance(point));
         let radius = self.radius * map.matrix3.determinant().abs().cbrt();
         (from.max(to).powi(2) + radius.powi(2)).sqrt() + radius
+    }
+
+    fn bounds(&self, map: &DAffine3) -> Option<[DVec3; 2]> {
+        around_box(self.from.min(self.to) - self.radius, self.from.max(self.to) + self.radius, map)
+    }
+
+    fn enclosure(&self) -> Enclosure {
+        Enclosure::None
+    }
+
+    fn tessellated(&self) -> Tessellated {
+        let axis = self.to - self.from;
+        let first = self.first_direction();
+        let second = first.cross(axis.normalize_or(DVec3::Y));
+        let mesh = of_rows(SEGMENTS, 1, |u, v| {
+            let (sine, cosine) = (TAU * u).sin_cos();
+            let normal = first * cosine + second * sine;
+            [self.from + axis * v + self.radius * normal, normal]
+        });
+        let deviation = self.radius * (1.0 - (PI / f64::from(SEGMENTS)).cos());
+        Tessellated { mesh: facing_normals(mesh).into(), deviation }
     }
 
     fn extent(&self, map: &DAffine3) -> Option<Extent> {

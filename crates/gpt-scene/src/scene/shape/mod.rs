@@ -1,15 +1,16 @@
 //! Surfaces, and the table of shapes.
 
-mod bounds;
 mod closed_mesh;
 mod cuboid;
 mod cylinder;
 mod disk;
 mod mesh;
+mod mesh_model;
 mod model;
 mod plane;
 mod rectangle;
 mod sphere;
+pub(crate) mod tessellation;
 
 use std::fmt;
 use std::sync::Arc;
@@ -21,16 +22,18 @@ use super::light_links::ReceiverId;
 use super::material::MaterialId;
 use super::motion::{Motion, MotionStep};
 use super::transform::Transform;
+pub use model::Enclosure;
 pub(super) use model::Extent;
 use model::ShapeModel;
+use tessellation::Tessellated;
 
 /// The table of shapes: a row for each. From these rows every layer makes what chooses among its modules, so a shape is
 /// a row here and a file of its module's name wherever it is represented: `scene/shape` is what it is, `load/file/shape` reads it,
 /// `packed/shape` packs it, `reference/shape` intersects and samples it in f64.
 ///
 /// A row: variant of [`Geometry`], type of its data, module, name in scene files. Then, unless it is made of another shape's primitives, its
-/// own primitive: its name; that of its files in `shaders/geometry/shape` and `shaders/shading/shape`, and of their functions; what the
-/// names of its number and switches hold; its `SurfaceSampling`, its `SurfaceCoordinates` and its `Curvature` (`packed/shape`).
+/// own primitive: its name; that of its file in `shaders/geometry/shape` and of the functions there; what the names of
+/// its number and switches hold; its `SurfaceSampling`, its `SurfaceCoordinates` and its `Curvature` (`packed/shape`).
 #[doc(hidden)]
 #[macro_export]
 macro_rules! shape_table {
@@ -92,6 +95,16 @@ impl Geometry {
     /// Why it has no texture coordinates, and what to use instead; None: it has them.
     pub fn lacks_uv(&self) -> Option<&'static str> {
         self.model().lacks_uv()
+    }
+
+    /// The part of space that its fronts look away from.
+    pub fn enclosure(&self) -> Enclosure {
+        self.model().enclosure()
+    }
+
+    /// Triangles in its place.
+    pub(crate) fn tessellated(&self) -> Tessellated {
+        self.model().tessellated()
     }
 
     pub(super) fn extent(&self, map: &DAffine3) -> Option<Extent> {
@@ -167,6 +180,16 @@ impl Shape {
     /// The material of one of its faces.
     pub fn face_material(&self, face: usize) -> MaterialId {
         self.geometry.model().face_materials().get(face).copied().unwrap_or(self.material)
+    }
+
+    /// The lower and upper corner of an upright box around the shape where its transform puts it; None of what is infinite.
+    pub fn bounds(&self) -> Option<[DVec3; 2]> {
+        self.geometry.model().bounds(&self.transform.to_affine())
+    }
+
+    /// The shape by itself encloses something, with one material all around.
+    pub fn is_closed(&self) -> bool {
+        self.face_materials_agree() && self.geometry.enclosure().is_closed()
     }
 
     /// A distance from `point` within which all of the shape lies; of an infinite plane the distance of the plane.

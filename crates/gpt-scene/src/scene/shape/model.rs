@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DVec3};
 
+use super::tessellation::Tessellated;
+use crate::math::box_corners;
 use crate::scene::check::Check;
 use crate::scene::material::MaterialId;
 
@@ -12,6 +14,26 @@ pub enum Extent {
     LongestEdge(f64),
     /// The extent from side to side, of all other shapes.
     Across(f64),
+}
+
+/// The part of space that a surface parts from the rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Enclosure {
+    /// None: rays go around its edge.
+    None,
+    /// A body, from which its fronts look away.
+    Body,
+    /// All but a body, which its fronts look into.
+    Surroundings,
+    /// One half of all there is.
+    Half,
+}
+
+impl Enclosure {
+    /// The surface has no edge, and no ray goes on for ever within.
+    pub fn is_closed(self) -> bool {
+        matches!(self, Self::Body | Self::Surroundings)
+    }
 }
 
 pub trait ShapeModel {
@@ -25,6 +47,15 @@ pub trait ShapeModel {
 
     /// A distance from `point` within which all of it lies once `map` has placed it; of what is infinite the distance of its surface.
     fn farthest_from(&self, map: &DAffine3, point: DVec3) -> f64;
+
+    /// The lower and upper corner of an upright box around it once `map` has placed it; None: it is infinite, or there is nothing of it.
+    fn bounds(&self, map: &DAffine3) -> Option<[DVec3; 2]>;
+
+    /// Says what its fronts look away from. Faces of a mesh may have several materials; all of them count.
+    fn enclosure(&self) -> Enclosure;
+
+    /// Triangles in its place.
+    fn tessellated(&self) -> Tessellated;
 
     /// Its extent once `map` has placed it; None: it is infinite, or there is nothing of it.
     fn extent(&self, map: &DAffine3) -> Option<Extent>;
@@ -62,9 +93,17 @@ pub fn longest_edge(edges: &[DVec3], map: &DAffine3) -> Extent {
 
 /// How far from `point` the farthest corner of a box is once `map` has placed it.
 pub fn farthest_corner(low: DVec3, high: DVec3, map: &DAffine3, point: DVec3) -> f64 {
-    let corner = |index: usize| {
-        let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
-        map.transform_point3(DVec3::new(pick(0), pick(1), pick(2))).distance(point)
-    };
-    (0..8).map(corner).fold(0.0, f64::max)
+    box_corners(low, high).map(|corner| map.transform_point3(corner).distance(point)).into_iter().fold(0.0, f64::max)
+}
+
+/// The upright box around points once `map` has placed them.
+pub fn around_points(points: impl IntoIterator<Item = DVec3>, map: &DAffine3) -> Option<[DVec3; 2]> {
+    let mut placed = points.into_iter().map(|point| map.transform_point3(point));
+    let first = placed.next()?;
+    Some(placed.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]))
+}
+
+/// The upright box around one of the shape's own space once `map` has placed that.
+pub fn around_box(low: DVec3, high: DVec3, map: &DAffine3) -> Option<[DVec3; 2]> {
+    around_points(box_corners(low, high), map)
 }

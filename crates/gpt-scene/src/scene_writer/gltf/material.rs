@@ -7,7 +7,7 @@ use super::draft::{Alpha, Draft, Share};
 use super::made::Made;
 use super::packing::Factors;
 use super::volume::has_volume;
-use crate::scene::{BlendWeight, Channel, CoatNormalMap, ColorInput, Geometry, MaterialId, Principled, Relief, Shape, TextureId};
+use crate::scene::{BlendWeight, Channel, CoatNormalMap, ColorInput, MaterialId, Principled, Relief, Shape, TextureId};
 use crate::scene_writer::emission::emission_of;
 use crate::scene_writer::inputs::{Colour, Scalar};
 use crate::scene_writer::weights;
@@ -113,13 +113,8 @@ impl Writer<'_> {
 
     /// All shapes of the material are closed: nothing is seen of their backs.
     fn encloses(&self, id: MaterialId) -> bool {
-        let is_closed = |shape: &Shape| match &shape.geometry {
-            Geometry::Sphere(_) | Geometry::Box(_) => true,
-            Geometry::Mesh(mesh) => shape.face_materials_agree() && mesh.is_closed(),
-            Geometry::Rectangle(_) | Geometry::Disk(_) | Geometry::Cylinder(_) | Geometry::Plane(_) => false,
-        };
         let of_it = self.scene.shapes.iter().filter(|shape| shape.materials().any(|material| material == id));
-        of_it.into_iter().all(is_closed)
+        of_it.into_iter().all(Shape::is_closed)
     }
 
     /// The light that a surface gives off: a colour from 0 to 1, and by how much it is stronger.

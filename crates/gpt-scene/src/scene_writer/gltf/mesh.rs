@@ -10,8 +10,8 @@ use super::Writer;
 use super::made::{Made, MeshKey};
 use super::paint::Painted;
 use super::tangents::with_tangents;
+use crate::scene::shape::tessellation::{PLANE, part_of};
 use crate::scene::{Geometry, MaterialId, Mesh, Shape, Transform, TransformStep};
-use crate::scene_writer::tessellation::{PLANE, part_of, tessellated};
 
 impl Writer<'_> {
     /// The index of the mesh of a shape in its own space; None where there is nothing to see.
@@ -59,7 +59,7 @@ impl Writer<'_> {
 
     /// The primitives of a shape where a map puts it, one for each of its materials.
     fn primitives(&mut self, shape: &Shape, place: &str, replaced: Option<MaterialId>, map: &DAffine3) -> Vec<Value> {
-        let made = tessellated(&shape.geometry);
+        let made = shape.geometry.tessellated();
         let kind = shape.geometry.kind_name();
         if made.deviation > 0.0 {
             let scale = shape.transform.to_affine().matrix3.x_axis.length();

@@ -59,10 +59,6 @@ impl Writer<'_> {
         match kind {
             MaterialKind::Diffuse { reflectance } => diffuse(*reflectance),
             MaterialKind::Emissive | MaterialKind::Blend { .. } | MaterialKind::Pass => diffuse(ZERO),
-            MaterialKind::OrenNayar { reflectance, .. } => {
-                near("Lambert's law is taken");
-                diffuse(*reflectance)
-            }
             MaterialKind::Dust { base, .. } => {
                 near("the surface below the dust alone is there");
                 diffuse(*base)
@@ -146,6 +142,10 @@ impl Writer<'_> {
             MaterialKind::Layered(layers) => {
                 near("a principled surface is taken");
                 self.stack(layers, place)
+            }
+            other => {
+                near("Lambert's law is taken");
+                diffuse(other.lobe().map_or(ZERO, |lobe| lobe.color0))
             }
         }
     }

@@ -83,10 +83,6 @@ impl Writer<'_> {
                 self.approximate("material of type `phong`", place, "its diffuse part alone is there");
                 self.diffuse(Colour::of(*diffuse), place)
             }
-            MaterialKind::OrenNayar { reflectance, .. } => {
-                self.approximate("material of type `oren_nayar`", place, "Lambert's law is taken");
-                self.diffuse(Colour::of(*reflectance), place)
-            }
             MaterialKind::Dust { base, .. } => {
                 self.approximate("material of type `dust`", place, "the surface below the dust alone is there");
                 self.diffuse(Colour::of(*base), place)
@@ -154,6 +150,10 @@ impl Writer<'_> {
             | MaterialKind::Blend { .. }
             | MaterialKind::Layered(_)
             | MaterialKind::Pass => self.diffuse(Colour::Constant(Spectrum::BLACK), place),
+            other => {
+                self.approximate(format!("material of type `{}`", other.type_name()), place, "Lambert's law is taken");
+                self.diffuse(Colour::of(other.lobe().map_or(ColorInput::grey(0.0), |lobe| lobe.color0)), place)
+            }
         }
     }
 

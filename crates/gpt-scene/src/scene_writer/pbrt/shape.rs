@@ -8,11 +8,11 @@ use super::Writer;
 use super::directive::{Directive, Number};
 use super::made::Made;
 use crate::load::file::writer::ply;
+use crate::scene::shape::tessellation::{PLANE, part_of};
 use crate::scene::texture::mean_of_texture;
 use crate::scene::{Emission, Geometry, MaterialId, Mesh, Scene, Shape};
 use crate::scene_writer::emission::emission_of;
 use crate::scene_writer::inputs::{Colour, ColourMap};
-use crate::scene_writer::tessellation::{PLANE, part_of, tessellated};
 use crate::spectrum::Spectrum;
 
 /// Faces up to which a mesh stands in the text.
@@ -126,18 +126,22 @@ impl Writer<'_> {
                 let disk_there = Directive::new("Shape", &["disk"]).float("radius", disk.radius * scale);
                 (DMat3::from_cols(across, beside, along), map.transform_point3(disk.center), disk_there)
             }
-            Geometry::Plane(_) => {
-                self.approximate("shape `plane`", place, format!("a square of {} units is taken", 2.0 * PLANE));
-                return self.mesh(shape, place, look.part).map(Placed::in_world);
-            }
-            Geometry::Mesh(_) | Geometry::Rectangle(_) | Geometry::Box(_) => {
+            other => {
+                let deviation = scale * other.tessellated().deviation;
+                let instead = match other.is_infinite() {
+                    true => Some(format!("a square of {} units is taken", 2.0 * PLANE)),
+                    false => (deviation > 0.0).then(|| format!("it is made of triangles, {deviation:.2e} off at most")),
+                };
+                if let Some(instead) = instead {
+                    self.approximate(format!("shape `{}`", other.kind_name()), place, instead);
+                }
                 return self.mesh(shape, place, look.part).map(Placed::in_world);
             }
         };
         let is_mirrored = axes.determinant() < 0.0;
         if is_mirrored && look.shows_texture && look.emits {
             // Places on a light are drawn there without regard to a mirror.
-            let deviation = scale * tessellated(&shape.geometry).deviation;
+            let deviation = scale * shape.geometry.tessellated().deviation;
             let what = format!("{} with a texture that gives light", shape.geometry.kind_name());
             self.approximate(what, place, format!("it is made of triangles, {deviation:.2e} off at most"));
             return self.mesh(shape, place, look.part).map(Placed::in_world);
@@ -159,7 +163,7 @@ impl Writer<'_> {
 
     /// Triangles where they stand in the world.
     fn mesh(&mut self, shape: &Shape, place: &str, part: Option<MaterialId>) -> Option<Directive> {
-        let mesh = tessellated(&shape.geometry).mesh;
+        let mesh = shape.geometry.tessellated().mesh;
         let shape = Shape { geometry: Geometry::Mesh(mesh.clone()), ..shape.clone() };
         let normals = if mesh.smooth { shape.world_normals() } else { Vec::new() };
         let placed = Mesh {
@@ -271,15 +275,12 @@ impl Placed {
 /// Texture coordinates somewhere run clockwise as seen from the front.
 fn has_mirrored_uvs(shape: &Shape) -> bool {
     let mirrored = shape.is_mirrored();
-    match &shape.geometry {
-        Geometry::Sphere(_) | Geometry::Cylinder(_) => !mirrored,
-        Geometry::Rectangle(_) | Geometry::Box(_) | Geometry::Disk(_) | Geometry::Plane(_) => mirrored,
-        Geometry::Mesh(mesh) => mesh.faces.iter().any(|face| {
-            let [Some(a), Some(b), Some(c)] = face.map(|vertex| mesh.uvs.get(vertex as usize)) else { return false };
-            let area = (*b - *a).perp_dot(*c - *a);
-            if mirrored { area > 0.0 } else { area < 0.0 }
-        }),
-    }
+    let mesh = shape.geometry.tessellated().mesh;
+    mesh.faces.iter().any(|face| {
+        let [Some(a), Some(b), Some(c)] = face.map(|vertex| mesh.uvs.get(vertex as usize)) else { return false };
+        let area = (*b - *a).perp_dot(*c - *a);
+        if mirrored { area > 0.0 } else { area < 0.0 }
+    })
 }
 
 fn mean(scene: &Scene, map: ColourMap) -> Spectrum {

@@ -40,7 +40,7 @@ use crate::scene::{Emission, MaterialKind};
 
 /// The entries of a scene file, by the rows of the table of materials.
 macro_rules! entries {
-    ($($material:ident $module:ident { $($lobe:tt)* })*) => {
+    ($($(#[$doc:meta])* $material:ident $(($($boxed:tt)*))? $({$($fields:tt)*})? $module:ident { $($lobe:tt)* })*) => {
         /// Materials of surfaces.
         #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(rename = "key:type", rename_all = "snake_case")]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::keys::{ShapeKeys, Written, plain_keys, shape_keys};
+use super::keys::{ShapeKeys, Written, box_around, plain_keys, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Exactly, Located, Vector, vector};
@@ -41,6 +41,10 @@ impl ShapeKeys for Keys {
             return Err(resolver.error(&self.max.place, "the box has no area: at most one of its edges can have length 0"));
         }
         Ok(Cuboid { min, max })
+    }
+
+    fn outline(&self) -> Vec<DVec3> {
+        box_around(&[vector(self.min), vector(self.max.value)])
     }
 
     fn write(cuboid: &Cuboid, shape: &Shape, writer: &mut Writer<'_>) -> String {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::keys::{ShapeKeys, Written, plain_keys, shape_keys};
+use super::keys::{ShapeKeys, Written, around_ball, plain_keys, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Exactly, Located, Positive, Vector, vector};
@@ -45,6 +45,11 @@ impl ShapeKeys for Keys {
             return Err(resolver.error(&self.to.place, "the cylinder has no length: `from` and `to` are the same point"));
         }
         Ok(Cylinder { from, to, radius: self.radius.0 })
+    }
+
+    fn outline(&self) -> Vec<DVec3> {
+        let ends = [self.from, self.to.value].map(vector);
+        ends.into_iter().flat_map(|end| around_ball(end, self.radius.0)).collect()
     }
 
     fn write(cylinder: &Cylinder, shape: &Shape, writer: &mut Writer<'_>) -> String {

@@ -1,5 +1,7 @@
 //! The keys that every shape has.
 
+use glam::DVec3;
+
 use super::transform::TransformEntry;
 use crate::load::error::SceneError;
 use crate::load::file::keyframes::WrittenTrack;
@@ -8,6 +10,7 @@ use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
 use crate::load::file::writer::Writer;
 use crate::load::place::Place;
+use crate::math::box_corners;
 use crate::scene::{MaterialId, Shape};
 
 /// Meaning of a shape's keys.
@@ -21,8 +24,23 @@ pub trait ShapeKeys {
     /// The geometry. Only a mesh file may bring a material, which it writes into `entry`.
     fn resolve(&self, resolver: &mut Resolver<'_>, entry: &mut Written<'_>) -> Result<Self::Shape, SceneError>;
 
+    /// Points around it, by which a camera is placed, in its own space; none of what is infinite, or is a mesh.
+    fn outline(&self) -> Vec<DVec3>;
+
     /// The keys that say the geometry of `shape`, which this is, and its material, a line each.
     fn write(geometry: &Self::Shape, shape: &Shape, writer: &mut Writer<'_>) -> String;
+}
+
+/// The corners of the box around points.
+pub fn box_around(points: &[DVec3]) -> Vec<DVec3> {
+    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    box_corners(low, high).to_vec()
+}
+
+/// The corners of the box around a ball.
+pub fn around_ball(center: DVec3, radius: f64) -> Vec<DVec3> {
+    box_around(&[center - radius, center + radius])
 }
 
 /// Declares the keys of a shape: its own and those that every shape has. `name` is what the schema calls them.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::Vec2;
+use glam::{DVec3, Vec2};
 
 use super::deformation::DeformationEntry;
 use super::keys::{ShapeKeys, Written, shape_keys};
@@ -100,6 +100,10 @@ impl ShapeKeys for Keys {
         let LoadedMesh { mesh, material } = resolver.mesh_file(&path, self.smooth, entry.material, &replaced)?;
         entry.material = Some(material);
         resolver.deformed(mesh, self.deformation.as_deref())
+    }
+
+    fn outline(&self) -> Vec<DVec3> {
+        Vec::new()
     }
 
     fn write(mesh: &Arc<Mesh>, shape: &Shape, writer: &mut Writer<'_>) -> String {

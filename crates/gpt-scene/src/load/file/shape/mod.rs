@@ -15,11 +15,13 @@ pub mod transform;
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use self::transform::TransformEntry;
 
+pub use self::keys::box_around;
 use self::keys::{CommonKeys, CommonKeysMut, ShapeKeys, Written};
 use super::resolver::Resolver;
 use super::value::Located;
@@ -53,6 +55,13 @@ macro_rules! entries {
             pub fn common(&self) -> CommonKeys<'_> {
                 match self {
                     $(Self::$variant(keys) => keys.common(),)*
+                }
+            }
+
+            /// Points around it, by which a camera is placed, in its own space; none of what is infinite, or is a mesh.
+            pub fn outline(&self) -> Vec<DVec3> {
+                match self {
+                    $(Self::$variant(keys) => keys.outline(),)*
                 }
             }
 

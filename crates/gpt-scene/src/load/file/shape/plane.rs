@@ -36,6 +36,10 @@ impl ShapeKeys for Keys {
         Ok(Plane { point: vector(self.point), normal: resolver.direction(&self.normal)? })
     }
 
+    fn outline(&self) -> Vec<DVec3> {
+        Vec::new()
+    }
+
     fn write(plane: &Plane, shape: &Shape, writer: &mut Writer<'_>) -> String {
         line("point", &writer::vector(plane.point)) + &line("normal", &direction(plane.normal)) + &writer.material_of(shape)
     }

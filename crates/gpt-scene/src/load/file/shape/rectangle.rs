@@ -42,6 +42,11 @@ impl ShapeKeys for Keys {
         Ok(Rectangle { corner: vector(self.corner), edge_u, edge_v })
     }
 
+    fn outline(&self) -> Vec<DVec3> {
+        let [corner, u, v] = [self.corner, self.edge_u.value, self.edge_v.value].map(vector);
+        vec![corner, corner + u, corner + v, corner + u + v]
+    }
+
     fn write(rectangle: &Rectangle, shape: &Shape, writer: &mut Writer<'_>) -> String {
         [
             line("corner", &writer::vector(rectangle.corner)),

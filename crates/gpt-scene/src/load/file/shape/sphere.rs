@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::keys::{ShapeKeys, Written, plain_keys, shape_keys};
+use super::keys::{ShapeKeys, Written, around_ball, plain_keys, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Exactly, Positive, Vector, vector};
@@ -32,6 +32,10 @@ impl ShapeKeys for Keys {
 
     fn resolve(&self, _: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Sphere, SceneError> {
         Ok(Sphere { center: vector(self.center), radius: self.radius.0 })
+    }
+
+    fn outline(&self) -> Vec<DVec3> {
+        around_ball(vector(self.center), self.radius.0)
     }
 
     fn write(sphere: &Sphere, shape: &Shape, writer: &mut Writer<'_>) -> String {

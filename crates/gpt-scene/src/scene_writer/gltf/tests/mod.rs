@@ -199,7 +199,7 @@ fn shapes_come_back_as_triangles() {
                 _ => Vec::new(),
             };
             assert_eq!((&trip.lost, trip.back.len()), (&expected, 0), "{name} {:?}", trip.back);
-            let made = crate::scene_writer::tessellation::tessellated(&written.shapes[0].geometry);
+            let made = written.shapes[0].geometry.tessellated();
             let expected = corners(&Shape { geometry: Geometry::Mesh(made.mesh), ..written.shapes[0].clone() });
             let found = corners(&trip.read.shapes[0]);
             let apart = |found: &[DVec3]| {

@@ -1,38 +1,28 @@
 //! Shapes as triangles, in their own space.
 
-use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use crate::scene::{Cuboid, Cylinder, Disk, Geometry, Mesh, Plane, Rectangle, Sphere};
+use super::mesh::Mesh;
 
 /// Half the side of the square that stands for an infinite plane.
 pub const PLANE: f64 = 10_000.0;
 /// Segments around a round shape, and half as many from pole to pole of a sphere.
-const SEGMENTS: u32 = 128;
+pub const SEGMENTS: u32 = 128;
 
 /// Triangles in place of a shape.
 pub struct Tessellated {
+    /// Fronts are the shape's fronts, and texture coordinates the shape's, where it has some.
     pub mesh: Arc<Mesh>,
     /// The largest distance between the triangles and the shape, in units of the shape's space; 0 where they are the same.
     pub deviation: f64,
 }
 
-/// The triangles of a shape. Their fronts are the shape's fronts, and their texture coordinates the shape's, where it has some.
-pub fn tessellated(geometry: &Geometry) -> Tessellated {
-    let exact = |mesh: Mesh| Tessellated { mesh: mesh.into(), deviation: 0.0 };
-    match geometry {
-        Geometry::Mesh(mesh) => Tessellated { mesh: mesh.clone(), deviation: 0.0 },
-        Geometry::Sphere(sphere) => of_sphere(sphere),
-        Geometry::Cylinder(tube) => of_cylinder(tube),
-        Geometry::Disk(disk) => of_disk(disk),
-        Geometry::Rectangle(Rectangle { corner, edge_u, edge_v }) => exact(of_quads(&[[*corner, *edge_u, *edge_v]], true)),
-        Geometry::Box(cuboid) => exact(of_quads(&faces(cuboid), true)),
-        Geometry::Plane(Plane { point, normal }) => {
-            let (u, v) = normal.normalize_or(DVec3::Y).any_orthonormal_pair();
-            exact(of_quads(&[[*point - (u + v) * PLANE, 2.0 * PLANE * u, 2.0 * PLANE * v]], false))
-        }
+impl Tessellated {
+    /// Triangles that are the shape itself.
+    pub fn exact(mesh: Mesh) -> Self {
+        Self { mesh: mesh.into(), deviation: 0.0 }
     }
 }
 
@@ -56,21 +46,8 @@ pub fn part_of(mesh: &Mesh, is_wanted: impl Fn(usize) -> bool) -> Mesh {
     part
 }
 
-/// Corner and edges of the faces, edge_u × edge_v outward; in the order and with the texture coordinates that boxes have.
-fn faces(cuboid: &Cuboid) -> Vec<[DVec3; 3]> {
-    let extent = cuboid.max - cuboid.min;
-    let axis = |index: usize| DVec3::AXES[index % 3] * extent[index % 3];
-    let face = |index: usize| {
-        let along = index / 2;
-        match index % 2 {
-            0 => [cuboid.min, axis(along + 2), axis(along + 1)],
-            _ => [cuboid.min + axis(along), axis(along + 1), axis(along + 2)],
-        }
-    };
-    (0..6).map(face).filter(|[_, u, v]| u.cross(*v) != DVec3::ZERO).collect()
-}
-
-fn of_quads(quads: &[[DVec3; 3]], has_uvs: bool) -> Mesh {
+/// A mesh of parallelograms: corner and edges of each, edge_u × edge_v along its front.
+pub fn of_quads(quads: &[[DVec3; 3]], has_uvs: bool) -> Mesh {
     let mut mesh = Mesh::default();
     for [corner, edge_u, edge_v] in quads {
         let first = mesh.positions.len() as u32;
@@ -84,7 +61,7 @@ fn of_quads(quads: &[[DVec3; 3]], has_uvs: bool) -> Mesh {
 }
 
 /// A mesh of rows of vertices, which are counter-clockwise along a row and upward from row to row.
-fn of_rows(columns: u32, rows: u32, vertex: impl Fn(f64, f64) -> [DVec3; 2]) -> Mesh {
+pub fn of_rows(columns: u32, rows: u32, vertex: impl Fn(f64, f64) -> [DVec3; 2]) -> Mesh {
     let mut mesh = Mesh { smooth: true, ..Mesh::default() };
     for row in 0..=rows {
         for column in 0..=columns {
@@ -106,51 +83,8 @@ fn of_rows(columns: u32, rows: u32, vertex: impl Fn(f64, f64) -> [DVec3; 2]) -> 
     mesh
 }
 
-/// Rows follow the texture coordinates that spheres have: u about +Y from −Z over +X, v from the lowest to the highest point.
-fn of_sphere(sphere: &Sphere) -> Tessellated {
-    let direction = |u: f64, v: f64| {
-        let ((sine, cosine), (x, minus_z)) = ((PI * v).sin_cos(), (TAU * u).sin_cos());
-        DVec3::new(sine * x, -cosine, -sine * minus_z)
-    };
-    // Seen from outside, u runs to the left: rows are walked the other way.
-    let mesh = of_rows(SEGMENTS, SEGMENTS / 2, |u, v| {
-        let normal = direction(u, v);
-        [sphere.center + sphere.radius * normal, normal]
-    });
-    let mesh = facing_normals(mesh);
-    // The middle of a quad at the equator lies deepest, below both of its arcs.
-    let deviation = sphere.radius * (1.0 - (PI / f64::from(SEGMENTS)).cos().powi(2));
-    Tessellated { mesh: mesh.into(), deviation }
-}
-
-fn of_cylinder(tube: &Cylinder) -> Tessellated {
-    let axis = tube.to - tube.from;
-    let first = tube.first_direction();
-    let second = first.cross(axis.normalize_or(DVec3::Y));
-    let mesh = of_rows(SEGMENTS, 1, |u, v| {
-        let (sine, cosine) = (TAU * u).sin_cos();
-        let normal = first * cosine + second * sine;
-        [tube.from + axis * v + tube.radius * normal, normal]
-    });
-    let deviation = tube.radius * (1.0 - (PI / f64::from(SEGMENTS)).cos());
-    Tessellated { mesh: facing_normals(mesh).into(), deviation }
-}
-
-fn of_disk(disk: &Disk) -> Tessellated {
-    let (across, beside) = disk.normal.normalize_or(DVec3::Z).any_orthonormal_pair();
-    let rim = |index: u32| {
-        let (sine, cosine) = (TAU * f64::from(index) / f64::from(SEGMENTS)).sin_cos();
-        (disk.center + disk.radius * (across * cosine + beside * sine)).as_vec3()
-    };
-    let mut mesh =
-        Mesh { positions: std::iter::once(disk.center.as_vec3()).chain((0..SEGMENTS).map(rim)).collect(), ..Mesh::default() };
-    mesh.faces = (0..SEGMENTS).map(|index| [0, 1 + index, 1 + (index + 1) % SEGMENTS]).collect();
-    let deviation = disk.radius * (1.0 - (PI / f64::from(SEGMENTS)).cos());
-    Tessellated { mesh: mesh.into(), deviation }
-}
-
 /// The faces turned so that their fronts look along the vertices' normals.
-fn facing_normals(mut mesh: Mesh) -> Mesh {
+pub fn facing_normals(mut mesh: Mesh) -> Mesh {
     for index in 0..mesh.faces.len() {
         let face = mesh.faces[index];
         let along: DVec3 = face.iter().map(|&vertex| mesh.normals[vertex as usize].as_dvec3()).sum();
@@ -166,12 +100,13 @@ mod tests {
     use super::*;
     use crate::load::file::shape_examples;
     use crate::load::load_toml_str;
+    use crate::scene::{Cuboid, Cylinder, Geometry, Sphere};
 
     /// Fronts look outward, vertices lie on the shape, and no triangle is farther from it than is said.
     #[test]
     fn round_shapes_are_as_near_as_they_say() {
         let sphere = Sphere { center: DVec3::new(1.0, 2.0, 3.0), radius: 2.0 };
-        let Tessellated { mesh, deviation } = tessellated(&Geometry::Sphere(sphere));
+        let Tessellated { mesh, deviation } = Geometry::Sphere(sphere).tessellated();
         let mut deepest = 0.0_f64;
         for &face in &mesh.faces {
             let corners = face.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
@@ -183,7 +118,7 @@ mod tests {
         }
         assert!(deepest <= deviation * (1.0 + 1e-4) && deepest > 0.4 * deviation, "{deepest} {deviation}");
         let tube = Cylinder { from: DVec3::new(0.0, 1.0, 0.0), to: DVec3::new(1.0, 3.0, 0.5), radius: 0.5 };
-        let Tessellated { mesh, deviation } = tessellated(&Geometry::Cylinder(tube));
+        let Tessellated { mesh, deviation } = Geometry::Cylinder(tube).tessellated();
         let axis = (tube.to - tube.from).normalize();
         for &face in &mesh.faces {
             let middle: DVec3 = face.iter().map(|&vertex| mesh.positions[vertex as usize].as_dvec3()).sum::<DVec3>() / 3.0;
@@ -201,7 +136,7 @@ mod tests {
                  radiance = 1\n{keys}material = \"m\"\n"
             );
             let scene = load_toml_str(&text, "example", std::path::Path::new("")).unwrap();
-            let made = tessellated(&scene.shapes[0].geometry);
+            let made = scene.shapes[0].geometry.tessellated();
             assert!(!made.mesh.faces.is_empty() && made.deviation.is_finite(), "{name}");
             assert_eq!(made.deviation > 0.0, scene.shapes[0].geometry.is_round(), "{name}");
         }
@@ -209,11 +144,12 @@ mod tests {
 
     #[test]
     fn parts_have_the_vertices_that_they_use() {
-        let whole = of_quads(&faces(&Cuboid { min: DVec3::ZERO, max: DVec3::ONE }), true);
+        let made = Geometry::Box(Cuboid { min: DVec3::ZERO, max: DVec3::ONE }).tessellated();
+        let whole = &*made.mesh;
         assert_eq!((whole.positions.len(), whole.faces.len()), (24, 12));
-        let part = part_of(&whole, |face| face >= 10);
+        let part = part_of(whole, |face| face >= 10);
         assert_eq!((part.positions.len(), part.uvs.len(), part.faces.len()), (4, 4, 2));
         assert!(part.positions.iter().all(|at| at.z == 1.0), "{part:?}");
-        assert_eq!(part_of(&whole, |_| true), whole, "the control");
+        assert_eq!(part_of(whole, |_| true), *whole, "the control");
     }
 }
