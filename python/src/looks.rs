@@ -20,7 +20,7 @@ pub struct Looks<'a> {
     kept: Mutex<Kept>,
 }
 
-/// What was seen so far.
+/// The picture as it was seen last.
 struct Kept {
     pixels: Vec<[f32; 3]>,
     counts: Vec<u32>,

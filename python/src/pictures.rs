@@ -11,7 +11,7 @@ use crate::errors::raised;
 use crate::task::{Finished, Rendered};
 use crate::watching::{INTERVAL, STACK_BYTES, Watcher};
 
-/// What the thread hands over.
+/// A message of the thread.
 pub enum Message {
     /// A picture as it is now.
     Look(Box<Look>),
@@ -101,7 +101,7 @@ impl Pictures {
 impl Taken {
     fn end(&mut self, watcher: &Watcher) {
         watcher.abandon();
-        // What waits to hand a picture over waits no more.
+        // A thread that waits to hand a picture over waits no more.
         self.receiver = None;
         if let Some(worker) = self.worker.take() {
             // Nobody is there to be told of a panic.
@@ -118,7 +118,7 @@ impl Pictures {
             None => Ok(None),
             Some(Message::Failed(error)) => Err(raised(error)),
             Some(Message::Finished(finished)) => {
-                // It has the last word on how far it is.
+                // Whoever is told of progress is told of the end too.
                 self.watcher.tell(py, self.progress.as_ref())?;
                 Ok(Some((finished.rendered(py)?, true)))
             }

@@ -173,7 +173,7 @@ impl Scene {
     }
 }
 
-/// What cannot be written is the scene's fault, or the file system's.
+/// Why a scene was not written: the scene's fault, or the file system's.
 fn not_written(error: gpt::output::OutputError) -> PyErr {
     match error {
         gpt::output::OutputError::Encode { what, .. } => SceneErrorRaised::new_err(what),
@@ -236,7 +236,7 @@ pub fn verify(py: Python<'_>, scene: &Scene, size: Option<(u32, u32)>, spp: Opti
     text(serde_json::to_string(&verdict.map_err(|error| raised(error.into()))?))
 }
 
-/// What was written as JSON.
+/// The text of JSON.
 pub fn text(json: serde_json::Result<String>) -> PyResult<String> {
     json.map_err(|error| PyValueError::new_err(error.to_string()))
 }

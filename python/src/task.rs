@@ -46,7 +46,7 @@ pub struct Rendered {
     stats: String,
 }
 
-/// The same before Python has it.
+/// A finished render that Python does not have yet.
 pub struct Finished {
     pub image: gpt::Image,
     pub channels: Vec<LayerChannel>,

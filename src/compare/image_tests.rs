@@ -135,8 +135,11 @@ pub fn compare_paired(first: ImageView, second: ImageView, settings: &TileSettin
     paired(first, second, None, settings)
 }
 
-/// The same where the pixels' differences scatter by these variances at least: those of a tile may be alike because hardly any sample has found its
-/// light.
+/// Compares as [`compare_paired`] does, where the pixels' differences scatter by these variances at least: those of a tile may be alike because hardly
+/// any sample has found its light.
+///
+/// # Errors
+/// Pictures of different sizes.
 pub fn compare_paired_above(
     [first, second]: [ImageView; 2],
     least: ImageView,

@@ -31,7 +31,7 @@ pub fn judge_candidate(
             let share = 1.0 / f64::from(samples);
             let pixels = variances.iter().zip(scaled(&of_samples, share));
             let variances: Vec<[f32; 3]> =
-                pixels.map(|(said, least)| std::array::from_fn(|channel| said[channel].max(least[channel]))).collect();
+                pixels.map(|(said, least)| std::array::from_fn(|channel| at_least(said[channel], least[channel]))).collect();
             let scatter = [
                 Scatter { variances: view(&own), degrees_of_freedom: golden.degrees_of_freedom() },
                 Scatter { variances: view(&variances), degrees_of_freedom: f64::from(samples - 1) },
@@ -45,6 +45,11 @@ pub fn judge_candidate(
         }
     };
     compared.map_err(|error| PictureTestError::Unsuitable(error.to_string()))
+}
+
+/// The larger one; what is not a number stays so, and is judged to differ.
+fn at_least(said: f32, least: f32) -> f32 {
+    if said < least { least } else { said }
 }
 
 fn scaled(variances: &[[f32; 3]], factor: f64) -> impl Iterator<Item = [f32; 3]> + '_ {

@@ -39,18 +39,17 @@ pub fn noise_of_samples(golden: &Golden) -> Vec<[f32; 3]> {
 /// hardly count.
 pub fn share_of_noise(golden: &Golden, of_samples: &[[f32; 3]], picture: &Image, tile: u32) -> f64 {
     let layout = Layout { width: golden.mean.width, height: golden.mean.height };
-    let mut shares: Vec<(f64, f64)> = Vec::new();
-    for region in layout.tiles(tile) {
-        for channel in 0..3 {
-            let difference =
-                |pixel: usize| f64::from(picture.pixels[pixel][channel]) - f64::from(golden.mean.pixels[pixel][channel]);
-            let scatter = layout.pixels(region).map(difference).collect::<Moments>().variance();
-            let noise = layout.pixels(region).map(|pixel| f64::from(of_samples[pixel][channel])).collect::<Moments>().mean();
-            if noise > 0.0 && scatter.is_finite() {
-                shares.push((scatter / noise, noise));
-            }
-        }
-    }
+    let share_in = |region, channel: usize| {
+        let difference = |pixel: usize| f64::from(picture.pixels[pixel][channel]) - f64::from(golden.mean.pixels[pixel][channel]);
+        let scatter = layout.pixels(region).map(difference).collect::<Moments>().variance();
+        let noise = layout.pixels(region).map(|pixel| f64::from(of_samples[pixel][channel])).collect::<Moments>().mean();
+        (noise > 0.0 && scatter.is_finite()).then_some((scatter / noise, noise))
+    };
+    let regions = layout.tiles(tile).into_iter();
+    let mut shares: Vec<(f64, f64)> = regions
+        .flat_map(|region| (0..3).map(move |channel| (region, channel)))
+        .filter_map(|(region, channel)| share_in(region, channel))
+        .collect();
     shares.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let half = 0.5 * shares.iter().map(|(_, weight)| weight).sum::<f64>();
     let mut before = 0.0;

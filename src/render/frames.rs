@@ -13,7 +13,7 @@ impl FrameList {
     /// Reads `1-100`, `1-100x5`, `1,5,20-30`.
     ///
     /// # Errors
-    /// What is wrong with the text, in a sentence.
+    /// A sentence on what is wrong with the text.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut frames: Vec<u32> = Vec::new();
         let mut seen = std::collections::HashSet::new();

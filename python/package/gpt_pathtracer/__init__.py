@@ -555,5 +555,5 @@ def builtin_scenes() -> List[str]:
     return _native.builtin_scenes()
 
 
-# It needs scenes and pictures.
+# The module needs scenes and pictures.
 from . import referee  # noqa: E402

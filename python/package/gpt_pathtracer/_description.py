@@ -20,7 +20,7 @@ _OF_MESH = (*_COLUMNS, "faces")
 
 @dataclass(frozen=True)
 class FileContent:
-    """What a file holds, in place of its path in a dictionary that is a scene."""
+    """The content of a file, in place of its path in a dictionary that is a scene."""
 
     #: The ending says what it is.
     name: str

@@ -64,7 +64,7 @@ class Outcome:
     off_by_at_least: Optional[float]
     #: The smallest change of the picture's mean that would have been found with a probability of 90 %, as a share; None of a black picture.
     would_find: Optional[float]
-    #: What is wrong, in words; empty where nothing is.
+    #: The fault in words; empty where there is none.
     sentence: str
     #: With the keys of `gpt referee run --json`.
     details: Dict[str, Any]
@@ -79,7 +79,7 @@ class Outcome:
 class Test:
     """A scene that asks one thing of a renderer."""
 
-    #: It is no test of pytest.
+    #: For pytest: no test of its own.
     __test__ = False
 
     def __init__(self, native: _native.RefereeTest) -> None:
@@ -170,7 +170,7 @@ def run(
             made[test.name] = [render(test, spp, seed) for seed in range(1, runs + 1)]
         except NotSupported as reason:
             reasons[test.name] = str(reason)
-    # As many tests were asked as there are: those that were not answered count too, and the rest are judged a little less strictly.
+    # Tests that were not answered count too: the rest are judged a little more strictly than they had to be.
     level = _native.level_of_each(false_alarms, len(chosen))
     known = _known_seeds(list(made.values()))
 
