@@ -132,6 +132,8 @@ impl Pictures {
 
     /// Ends the render.
     fn close(&self, py: Python<'_>) {
+        // Whoever waits for a picture in another thread waits no more.
+        self.watcher.abandon();
         py.detach(|| self.taken.lock().unwrap_or_else(PoisonError::into_inner).end(&self.watcher));
     }
 }

@@ -166,6 +166,10 @@ class Rendering(unittest.TestCase):
     def test_ctrl_c_ends_it(self):
         self.interrupt("gpt.Scene.from_toml(sys.stdin.read()).render(spp=1_000_000_000, device='cpu')")
 
+    @unittest.skipIf(os.name == "nt", "signals of Unix")
+    def test_ctrl_c_ends_pictures_on_the_way(self):
+        self.interrupt("list(gpt.Scene.from_toml(sys.stdin.read()).render_progressively(spp=1_000_000_000, seconds=1e6, device='cpu'))")
+
     @unittest.skipIf(os.name == "nt" or device() == "cpu", "signals of Unix, and a device to verify")
     def test_ctrl_c_ends_verification(self):
         self.interrupt("gpt.verify(gpt.Scene.from_toml(sys.stdin.read()), size=(400, 400), spp=1_000_000)")
