@@ -124,7 +124,14 @@ impl Pictures {
             }
             Some(Message::Look(look)) => {
                 let Look { image, stats } = *look;
-                let nothing = Finished { image, channels: Vec::new(), layers: Vec::new(), groups: Vec::new(), stats: Ok(stats) };
+                let nothing = Finished {
+                    image,
+                    channels: Vec::new(),
+                    layers: Vec::new(),
+                    groups: Vec::new(),
+                    notes: Vec::new(),
+                    stats: Ok(stats),
+                };
                 Ok(Some((nothing.rendered(py)?, false)))
             }
         }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use gpt::choice::Choice;
-use gpt::output::{Channels, LAYERS_KEY, LIGHT_GROUPS_KEY};
+use gpt::output::{Channels, LAYERS_KEY};
 use gpt::regroup::{GroupWeight, GroupedPicture, RegroupError};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -23,19 +23,19 @@ pub fn regroup_file(py: Python<'_>, path: PathBuf, weights: Vec<String>) -> PyRe
     regrouped.map_err(|error| failure(&format!("{}: ", path.display()), error))?.rendered(py)
 }
 
-/// A picture in memory with its groups weighed so: its size, its channels, the layers that they belong to, and its groups.
+/// A picture in memory with its groups weighed so: its size, its channels, the layers that they belong to, and what its header says.
 #[pyfunction]
 pub fn regroup_channels(
     py: Python<'_>,
     size: (u32, u32),
     channels: Vec<Channel>,
     layers: String,
-    groups: Vec<String>,
+    notes: Vec<(String, String)>,
     weights: Vec<String>,
 ) -> PyResult<Rendered> {
     let numbers = |bytes: Vec<u8>| bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_ne_bytes(bytes)).collect();
     let channels = channels.into_iter().map(|(name, bytes)| (name, numbers(bytes)));
-    let header = [(LAYERS_KEY.to_owned(), layers), (LIGHT_GROUPS_KEY.to_owned(), groups.join(","))];
+    let header = notes.into_iter().chain([(LAYERS_KEY.to_owned(), layers)]);
     let channels = Channels::of_memory([size.0, size.1], channels, header);
     let channels = channels.ok_or_else(|| PyValueError::new_err("layers have the size of their picture"))?;
     py.detach(|| weighed(|| GroupedPicture::of_memory(channels), &weights)).map_err(|error| failure("", error))?.rendered(py)
@@ -62,6 +62,7 @@ fn weighed(picture: impl FnOnce() -> Result<GroupedPicture, RegroupError>, weigh
         channels: regrouped.layers,
         layers: regrouped.layer_names,
         groups: grouped.names_of_groups().to_vec(),
+        notes: regrouped.header,
         stats: Ok(stats.to_string()),
     })
 }

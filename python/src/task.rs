@@ -7,8 +7,9 @@ use gpt::film::Layer;
 use gpt::learn::{Effort, Pace, with_lights_settled};
 use gpt::load::SceneError;
 use gpt::output::LayerChannel;
+use gpt::render::cryptomatte;
 use gpt::render::frames::FrameList;
-use gpt::render::layers::render_layers;
+use gpt::render::layers::{notes_of_groups, render_layers};
 use gpt::render::stats::Stats;
 use gpt::{Observer, RenderOptions, Renderer};
 use pyo3::exceptions::PyValueError;
@@ -43,6 +44,8 @@ pub struct Rendered {
     /// Names of the layers as they were asked for, with commas.
     layer_list: String,
     groups: Vec<String>,
+    /// Entries of the header of an EXR file.
+    notes: Vec<(String, String)>,
     stats: String,
 }
 
@@ -52,6 +55,7 @@ pub struct Finished {
     pub channels: Vec<LayerChannel>,
     pub layers: Vec<Layer>,
     pub groups: Vec<String>,
+    pub notes: Vec<(String, String)>,
     pub stats: serde_json::Result<String>,
 }
 
@@ -66,6 +70,7 @@ impl Finished {
             channels: self.channels.iter().map(|channel| channel.name.to_string()).collect(),
             layer_list: Layer::list(&self.layers),
             groups: self.groups,
+            notes: self.notes,
             stats: text(self.stats)?,
         })
     }
@@ -90,8 +95,12 @@ impl Task {
         }
         let has_groups = self.layers.contains(&Layer::Groups);
         let groups = if has_groups { scene.light_group_names().into_iter().map(str::to_owned).collect() } else { Vec::new() };
+        let mut notes = if self.layers.contains(&Layer::Cryptomatte) { cryptomatte::notes(scene) } else { Vec::new() };
+        if has_groups {
+            notes.extend(notes_of_groups(scene));
+        }
         let stats = serde_json::to_string(&stats);
-        Ok(Finished { image, channels: channels.unwrap_or_default(), layers: self.layers.clone(), groups, stats })
+        Ok(Finished { image, channels: channels.unwrap_or_default(), layers: self.layers.clone(), groups, notes, stats })
     }
 }
 

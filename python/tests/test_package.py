@@ -369,6 +369,30 @@ irradiance = 0.2
             in_memory = gpt.regroup(gpt.Scene.load(file).render(device="cpu", layers="groups"), {"key": (2, "#ffddaa")})
             self.assertEqual(in_memory.pixels.tobytes(), expected.tobytes())
 
+    def test_layers_are_saved_as_the_program_saves_them(self):
+        names = "normal,depth,alpha,variance,samples,ids,cryptomatte,groups"
+        with tempfile.TemporaryDirectory() as folder:
+            file, by_program, ours, plain = (Path(folder, name) for name in ("two.toml", "program.exr", "ours.exr", "plain.exr"))
+            file.write_text(self.TWO)
+            subprocess.run([PROGRAM, "render", file, "--device", "cpu", "-q", "-o", by_program, "--aov", names], check=True)
+            scene = gpt.Scene.load(file)
+            picture = scene.render(device="cpu", layers=names.split(","))
+            picture.save(ours)
+            self.assertEqual(ours.read_bytes(), by_program.read_bytes())
+            again = gpt.Scene.load(file).render(spp=32, device="cpu", layers=["uv", "direct", "object_position"])
+            again.save(ours)
+            arguments = [PROGRAM, "render", file, "--spp", "32", "--device", "cpu", "-q", "-o", by_program, "--aov", "uv,direct,object_position"]
+            subprocess.run(arguments, check=True)
+            self.assertEqual(ours.read_bytes(), by_program.read_bytes())
+            # The control: without its layers it is another file.
+            scene.render(device="cpu").save(plain)
+            self.assertNotEqual(plain.read_bytes(), by_program.read_bytes())
+            # A picture that was regrouped keeps its groups in its file.
+            gpt.regroup(picture, {"key": 2}).save(ours)
+            self.assertEqual(gpt.regroup(ours, {"key": 0.5}).light_groups, picture.light_groups)
+            np.testing.assert_allclose(gpt.regroup(ours, {"key": 0.5}).pixels, picture.pixels, rtol=1e-5, atol=1e-6)
+            picture.save(Path(folder, "preview.png"))
+
     def test_wrong_weights_are_exceptions(self):
         picture = gpt.Scene.from_toml(self.TWO).render(device="cpu", spp=1, layers=["groups"])
         for weights, words in (({"kye": 1}, "no light group"), ({"key": -1}, "no factor"), ({"key": "red"}, "no factor"), ({"key": (1, 2)}, "one factor")):
@@ -541,7 +565,7 @@ class Referee(unittest.TestCase):
                 picture = test.scene().render(16, seed=seed, device="cpu").pixels * np.float32(1.05)
                 pictures[seed] = Path(folder, f"lights-disk{suffix}.exr")
                 rows, columns, _ = picture.shape
-                gpt._native.Picture.from_bytes(columns, rows, picture.tobytes()).save(str(pictures[seed]))
+                gpt.Picture(gpt._native.Picture.from_bytes(columns, rows, picture.tobytes()), {}, {}).save(pictures[seed])
             said = subprocess.run([PROGRAM, "referee", "run", "lights/disk", "--pictures", folder, "--json", "-q"], capture_output=True, text=True)
             theirs = json.loads(said.stdout)["tests"][0]
             ours = referee.judge({"lights/disk": pictures})[0].details

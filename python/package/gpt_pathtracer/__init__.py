@@ -74,12 +74,13 @@ class Picture:
         self.light_groups: Tuple[str, ...] = ()
         self._channels: List[str] = []
         self._layer_list = ""
+        self._notes: List[Tuple[str, str]] = []
 
     @staticmethod
     def _of(made: _native.Rendered) -> Picture:
         picture = Picture(made.picture, {name: np.asarray(layer) for name, layer in made.layers.items()}, json.loads(made.stats))
         picture.light_groups = tuple(made.groups)
-        picture._channels, picture._layer_list = made.channels, made.layer_list
+        picture._channels, picture._layer_list, picture._notes = made.channels, made.layer_list, made.notes
         return picture
 
     @staticmethod
@@ -108,8 +109,20 @@ class Picture:
         return pixels.copy() if copy else pixels
 
     def save(self, path: Path) -> None:
-        """Writes the picture: .exr and .hdr hold the radiance, .png and .jpg are previews. Layers are not written; `gpt render --aov` does that."""
-        self._native.save(os.fspath(path))
+        """Writes the picture: .exr and .hdr hold the radiance, .png and .jpg are previews. An .exr has its layers too, as `gpt render --aov` writes them."""
+        is_exr = os.fspath(path).lower().endswith(".exr")
+        channels = [(name, numbers.tobytes(), is_whole) for name, numbers, is_whole in self._numbers()] if is_exr else []
+        self._native.save(os.fspath(path), channels, self._layer_list, self._notes)
+
+    def _numbers(self) -> Iterator[Tuple[str, Pixels, bool]]:
+        """Names of the layers' channels in EXR files, their numbers, and whether these are whole."""
+        places: Dict[str, int] = {}
+        for channel in self._channels:
+            layer = channel.rpartition(".")[0] or channel
+            array, place = self.layers[layer], places.get(layer, 0)
+            places[layer] = place + 1
+            numbers = array if array.ndim == 2 else array[..., place]
+            yield channel, np.ascontiguousarray(numbers, dtype=np.float32), array.dtype == np.uint32
 
     def to_xarray(self) -> Any:
         """The picture and its layers as an `xarray.Dataset`: `radiance` and the layers by their names, along `y` (rows from the top), `x` and, where they
@@ -485,16 +498,8 @@ def regroup(picture: Union[Picture, Path], weights: Mapping[str, Weight]) -> Pic
     if not isinstance(picture, Picture):
         return Picture._of(_native.regroup_file(os.fspath(picture), texts))
     rows, columns, _ = picture.pixels.shape
-    places: Dict[str, int] = {}
-    channels: List[Tuple[str, bytes]] = []
-    for channel in picture._channels:
-        layer = channel.rpartition(".")[0] or channel
-        array, place = picture.layers[layer], places.get(layer, 0)
-        places[layer] = place + 1
-        numbers = array if array.ndim == 2 else array[..., place]
-        channels.append((channel, np.ascontiguousarray(numbers, dtype=np.float32).tobytes()))
-    groups = list(picture.light_groups)
-    return Picture._of(_native.regroup_channels((columns, rows), channels, picture._layer_list, groups, texts))
+    channels = [(name, numbers.tobytes()) for name, numbers, _ in picture._numbers()]
+    return Picture._of(_native.regroup_channels((columns, rows), channels, picture._layer_list, picture._notes, texts))
 
 
 def verify(

@@ -94,7 +94,7 @@ class _Files:
             raise _native.SceneError(f"{place}: the picture has numbers that are not finite")
         path = self._next("exr")
         rows, columns, _ = numbers.shape
-        _native.Picture.from_bytes(columns, rows, np.ascontiguousarray(numbers).tobytes()).save(str(path))
+        _native.Picture.from_bytes(columns, rows, np.ascontiguousarray(numbers).tobytes()).save(str(path), [], "", [])
         return str(path)
 
     def _mesh(self, found: Mapping[str, Any], place: str) -> str:
