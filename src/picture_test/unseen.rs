@@ -84,6 +84,11 @@ mod tests {
         }
     }
 
+    /// The chance without rare paths.
+    fn chance_of_edge(pixel: usize) -> f64 {
+        if chance(pixel) < 0.001 { 0.0 } else { chance(pixel) }
+    }
+
     fn render(random: &mut SplitMix64, samples: u32, factor: f32) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
         let pixel = |pixel: usize, random: &mut SplitMix64| {
             let hits = (0..samples).filter(|_| random.uniform() < chance(pixel)).count() as f32;
@@ -158,5 +163,34 @@ mod tests {
             let found = found.count();
             assert!(found >= 95, "{found} of 100, stated: {is_stated}");
         }
+    }
+    /// A golden picture of points that fill space evenly: its renders meet the edge as often as it is large, all of them, and do not scatter.
+    #[test]
+    fn edges_are_noise_that_even_points_hide() {
+        let settings = TestSettings { false_alarms: 0.02, ..TestSettings::default() };
+        let tiles = super::super::judge::tile_settings(&settings);
+        let pixels = (0..PIXELS).map(|pixel| [chance_of_edge(pixel) as f32; 3]).collect();
+        let golden = Golden {
+            mean: Image { width: SIZE[0], height: SIZE[1], pixels },
+            variances: vec![[0.0; 3]; PIXELS],
+            samples: 4096,
+            replications: Some(8),
+            flip_of_noise: None,
+            scene_hash: None,
+            warnings: Vec::new(),
+        };
+        let (mut random, mut alarms, mut without) = (SplitMix64::new(5), 0, 0);
+        for _ in 0..300 {
+            let mut candidate = candidate(&mut random, SAMPLES, 1.0, true);
+            for (pixel, value) in candidate.mean.pixels.iter_mut().enumerate().filter(|(pixel, _)| chance_of_edge(*pixel) == 0.0)
+            {
+                *value = golden.mean.pixels[pixel];
+            }
+            alarms += u32::from(!judge_candidate(&golden, &candidate, &settings).expect("one size").agrees());
+            without += u32::from(!by_itself(&golden, &candidate, &tiles));
+        }
+        assert!(alarms <= 17, "{alarms} of 300");
+        // The control: by its own noise.
+        assert!(without > 60, "{without} of 300");
     }
 }
