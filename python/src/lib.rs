@@ -5,11 +5,17 @@
 mod array;
 mod errors;
 mod layers;
+mod looks;
 mod measuring;
 mod picture;
+mod pictures;
 mod process;
+mod referee;
+mod regrouping;
 mod scene;
 mod settings;
+mod tables;
+mod task;
 mod watching;
 
 use pyo3::prelude::*;
@@ -24,9 +30,19 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<array::Array>()?;
     module.add_class::<picture::Picture>()?;
     module.add_class::<scene::Scene>()?;
-    module.add_class::<scene::Rendered>()?;
+    module.add_class::<task::Task>()?;
+    module.add_class::<task::Rendered>()?;
+    module.add_class::<pictures::Pictures>()?;
+    module.add_class::<referee::RefereeTest>()?;
     module.add_function(wrap_pyfunction!(picture::compare, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::measured, module)?)?;
+    module.add_function(wrap_pyfunction!(regrouping::regroup_file, module)?)?;
+    module.add_function(wrap_pyfunction!(regrouping::regroup_channels, module)?)?;
+    module.add_function(wrap_pyfunction!(referee::referee_tests, module)?)?;
+    module.add_function(wrap_pyfunction!(referee::referee_version, module)?)?;
+    module.add_function(wrap_pyfunction!(referee::level_of_each, module)?)?;
+    module.add_function(wrap_pyfunction!(task::frame_list, module)?)?;
+    module.add_function(wrap_pyfunction!(tables::tables, module)?)?;
     module.add_function(wrap_pyfunction!(scene::verify, module)?)?;
     module.add_function(wrap_pyfunction!(settings::settings, module)?)?;
     module.add_function(wrap_pyfunction!(scene::builtin_scenes, module)?)?;

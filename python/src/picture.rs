@@ -1,7 +1,11 @@
 //! Pictures in memory and in files.
 
+use std::io;
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use gpt::film::Layer;
+use gpt::output::{LayerChannel, LayerPicture, LayerSource, SAMPLE_COUNT};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -47,11 +51,37 @@ impl Picture {
         interface(py, "f4", self.0.pixels().as_ptr() as usize, &shape)
     }
 
-    /// Writes a file.
-    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    /// Writes a file; of an EXR file also these channels, with the layers that they belong to, and entries of the header.
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        channels: Vec<Channel>,
+        layers: &str,
+        notes: Vec<(String, String)>,
+    ) -> PyResult<()> {
         process::check()?;
-        py.detach(|| self.0.save(path)).map_err(raised)
+        let names = Layer::from_list(layers).unwrap_or_default();
+        let size = [self.0.width(), self.0.height()];
+        py.detach(|| {
+            let channels = channels.into_iter().map(|channel| layer_channel(size, channel)).collect::<io::Result<_>>()?;
+            self.0.save_with(path, (channels, names), notes).map_err(raised)
+        })
     }
+}
+
+/// A channel's name, its numbers in single precision, row by row from the top, and whether they are whole.
+type Channel = (String, Vec<u8>, bool);
+
+fn layer_channel(size: [u32; 2], (name, bytes, is_whole): Channel) -> io::Result<LayerChannel> {
+    let numbers = bytes.as_chunks::<4>().0.iter().map(|&bytes| [f32::from_ne_bytes(bytes); 3]);
+    let picture = LayerPicture::new(size)?;
+    picture.write_rows(0, &numbers.collect::<Vec<_>>())?;
+    let picture = Arc::new(picture);
+    // Numbers of samples are floating-point numbers in files of `gpt render`.
+    let source =
+        if is_whole && name != SAMPLE_COUNT { LayerSource::Whole(picture, 0) } else { LayerSource::Component(picture, 0) };
+    Ok(LayerChannel::new(name, source))
 }
 
 /// How far a picture is from its reference, as JSON.

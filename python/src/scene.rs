@@ -1,37 +1,36 @@
-//! Scenes, what is rendered of them, and whether devices agree on them.
+//! Scenes: read, written, and compared on two devices.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use gpt::choice::Choice;
 use gpt::film::Layer;
-use gpt::load::{LoadOptions, ModelView, SceneError, builtin_names, load_toml_str, load_with};
+use gpt::load::{FileLog, LoadOptions, ModelView, SceneError, builtin_names, load_toml_str, load_with};
 use gpt::plan::PlanOptions;
-use gpt::render::layers::render_layers;
-use gpt::render::stats::Stats;
-use gpt::{DeviceChoice, IntervalOptions, RenderOptions, Renderer};
+use gpt::scene_writer::{as_scene_file, save_scene_beside};
+use gpt::{DeviceChoice, IntervalOptions, RenderOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
-use crate::array::Array;
-use crate::errors::raised;
-use crate::layers::arrays;
-use crate::picture::Picture;
+use crate::errors::{SceneError as SceneErrorRaised, raised};
 use crate::process;
 use crate::settings::assigned;
+use crate::task::Task;
 use crate::watching::watched;
+
+/// The path and the content of a file beside a scene file.
+type Beside<'py> = (PathBuf, Bound<'py, PyBytes>);
 
 /// A scene that was read.
 #[pyclass(frozen, module = "gpt_pathtracer._native")]
-pub struct Scene(pub gpt::Scene);
+pub struct Scene(pub gpt::Scene, FileLog);
 
-/// A picture, its layers by channel, and what the render did, as JSON.
-#[pyclass(frozen, get_all, module = "gpt_pathtracer._native")]
-pub struct Rendered {
-    picture: Py<Picture>,
-    layers: BTreeMap<String, Py<Array>>,
-    stats: String,
+impl From<gpt::Scene> for Scene {
+    /// A scene that was read from no file that it knows of.
+    fn from(scene: gpt::Scene) -> Self {
+        Self(scene, FileLog::default())
+    }
 }
 
 /// The device of this name.
@@ -64,7 +63,18 @@ impl Scene {
         process::check()?;
         let view = ModelView { environment, ..ModelView::default() };
         let preset = projection.map(|name| named("projection", &name)).transpose()?;
-        let options = LoadOptions { strict, definitions, camera, variant, assets_root, view, preset, ..LoadOptions::default() };
+        let log = FileLog::default();
+        let options = LoadOptions {
+            strict,
+            definitions,
+            camera,
+            variant,
+            assets_root,
+            view,
+            preset,
+            log: log.clone(),
+            ..LoadOptions::default()
+        };
         let load = || {
             let scene = load_with(Some(path.as_os_str()), &options)?;
             match scene.import_report.summary().filter(|_| strict) {
@@ -72,14 +82,14 @@ impl Scene {
                 None => Ok(scene),
             }
         };
-        py.detach(load).map(Self).map_err(|error| raised(error.into()))
+        py.detach(load).map(|scene| Self(scene, log)).map_err(|error| raised(error.into()))
     }
 
     /// Reads the text of a scene file.
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str, folder: PathBuf) -> PyResult<Self> {
         process::check()?;
-        py.detach(|| load_toml_str(text, "scene", &folder)).map(Self).map_err(|error| raised(error.into()))
+        py.detach(|| load_toml_str(text, "scene", &folder)).map(Self::from).map_err(|error| raised(error.into()))
     }
 
     #[getter]
@@ -107,14 +117,15 @@ impl Scene {
     /// The scene at a frame of its keyframes.
     fn at_frame(&self, py: Python<'_>, frame: f64) -> PyResult<Self> {
         let moved = py.detach(|| self.0.at_frame(frame));
-        moved.map(Self).map_err(|error| raised(SceneError::in_file(&self.0.name, error.to_string()).into()))
+        moved
+            .map(|scene| Self(scene, self.1.clone()))
+            .map_err(|error| raised(SceneError::in_file(&self.0.name, error.to_string()).into()))
     }
 
-    /// Renders it.
+    /// A render of it with these keywords, which can be wrong.
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
-    fn render(
+    fn task(
         &self,
-        py: Python<'_>,
         size: Option<(u32, u32)>,
         device: &str,
         layers: Vec<String>,
@@ -124,12 +135,10 @@ impl Scene {
         intervals: (Option<f64>, Option<f64>, Option<String>, Option<String>),
         part: (u32, Option<(u32, u32, u32, u32)>),
         settings: Vec<(String, String)>,
-        progress: Option<Py<PyAny>>,
-    ) -> PyResult<Rendered> {
-        process::check()?;
+    ) -> PyResult<Task> {
         let settings = assigned(&settings)?;
         let (first_sample, crop) = part;
-        let wanted = layers.iter().map(|name| layer_of(name)).collect::<PyResult<Vec<_>>>()?;
+        let layers = layers.iter().map(|name| layer_of(name)).collect::<PyResult<Vec<_>>>()?;
         let options = RenderOptions {
             device: device_of(device)?,
             time_limit: time_limit.map(seconds).transpose()?,
@@ -137,7 +146,7 @@ impl Scene {
             adaptive,
             first_sample,
             crop: crop.map(|(x, y, columns, rows)| [x, y, columns, rows]),
-            interval: interval_of(intervals, &wanted)?,
+            interval: interval_of(intervals, &layers)?,
             ..RenderOptions::default()
         };
         let mut scene = self.0.clone();
@@ -147,21 +156,28 @@ impl Scene {
         if let Some(interval) = &options.interval {
             interval.apply(&mut scene.render);
         }
-        let outcome = watched(py, progress.as_ref(), |watcher| -> Result<_, gpt::Error> {
-            // First, because it finds what is wrong with the options.
-            let mut renderer = Renderer::new(&scene, &options)?;
-            let layers = render_layers(&scene, &options, (&wanted, false), watcher, &mut |_, _| Ok::<_, gpt::Error>(None))?;
-            let image = renderer.image(watcher)?;
-            let mut stats = Stats::of_image(&image, &scene, &options);
-            if let Some(stats) = &mut stats {
-                stats.notice = renderer.notice().map(str::to_owned);
-            }
-            Ok((layers, image, stats))
-        })?;
-        let (channels, image, stats) = outcome.map_err(raised)?;
-        let layers = py.detach(|| arrays(&channels.unwrap_or_default(), &image))?;
-        let layers = layers.into_iter().map(|(name, array)| Ok((name, Py::new(py, array)?))).collect::<PyResult<_>>()?;
-        Ok(Rendered { picture: Py::new(py, Picture(image))?, layers, stats: text(serde_json::to_string(&stats))? })
+        Ok(Task { scene, options, layers })
+    }
+
+    /// The scene as a scene file at this path would be, and the paths and contents of the files beside it.
+    fn written<'py>(&self, py: Python<'py>, path: PathBuf) -> PyResult<(String, Vec<Beside<'py>>)> {
+        let written = py.detach(|| as_scene_file(&self.0, &path)).map_err(not_written)?;
+        let text = String::from_utf8(written.content).map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Ok((text, written.files.into_iter().map(|(path, content)| (path, PyBytes::new(py, &content))).collect()))
+    }
+
+    /// Writes it as a scene file, with files beside it; the paths of all that were written.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<PathBuf>> {
+        process::check()?;
+        py.detach(|| save_scene_beside(&self.0, &path, &self.1)).map_err(not_written)
+    }
+}
+
+/// Why a scene was not written: the scene's fault, or the file system's.
+fn not_written(error: gpt::output::OutputError) -> PyErr {
+    match error {
+        gpt::output::OutputError::Encode { what, .. } => SceneErrorRaised::new_err(what),
+        error => raised(error.into()),
     }
 }
 
@@ -220,7 +236,8 @@ pub fn verify(py: Python<'_>, scene: &Scene, size: Option<(u32, u32)>, spp: Opti
     text(serde_json::to_string(&verdict.map_err(|error| raised(error.into()))?))
 }
 
-fn text(json: serde_json::Result<String>) -> PyResult<String> {
+/// The text of JSON.
+pub fn text(json: serde_json::Result<String>) -> PyResult<String> {
     json.map_err(|error| PyValueError::new_err(error.to_string()))
 }
 

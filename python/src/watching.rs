@@ -9,14 +9,16 @@ use std::time::Duration;
 use pyo3::prelude::*;
 
 /// Time between two looks at Python's signals.
-const INTERVAL: Duration = Duration::from_millis(100);
+pub const INTERVAL: Duration = Duration::from_millis(100);
 /// As much as the first thread of a program has.
-const STACK_BYTES: usize = 8 << 20;
+pub const STACK_BYTES: usize = 8 << 20;
 
 /// What a render and who waits for it know of each other.
 #[derive(Default)]
 pub struct Watcher {
     ends: AtomicBool,
+    is_abandoned: AtomicBool,
+    is_waited_for: AtomicBool,
     done: AtomicU64,
     total: AtomicU64,
 }
@@ -30,10 +32,30 @@ impl gpt::Observer for Watcher {
     fn stop_requested(&self) -> bool {
         self.ends.load(Ordering::Relaxed)
     }
+
+    fn is_abandoned(&self) -> bool {
+        self.is_abandoned.load(Ordering::Relaxed)
+    }
 }
 
 impl Watcher {
-    fn tell(&self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+    /// Ends the render, whose picture nobody wants.
+    pub fn abandon(&self) {
+        self.is_abandoned.store(true, Ordering::Relaxed);
+        self.ends.store(true, Ordering::Relaxed);
+    }
+
+    /// Says whether somebody waits for a picture.
+    pub fn wait_for(&self, waits: bool) {
+        self.is_waited_for.store(waits, Ordering::Relaxed);
+    }
+
+    pub fn is_waited_for(&self) -> bool {
+        self.is_waited_for.load(Ordering::Relaxed)
+    }
+
+    /// Tells Python how far the render is.
+    pub fn tell(&self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
         let (done, total) = (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed));
         match progress {
             // It may have begun anew between the two.

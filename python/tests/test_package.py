@@ -15,12 +15,15 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
 
 import gpt_pathtracer as gpt
+from gpt_pathtracer import referee
 from gpt_pathtracer._display import Bar
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -163,6 +166,10 @@ class Rendering(unittest.TestCase):
     def test_ctrl_c_ends_it(self):
         self.interrupt("gpt.Scene.from_toml(sys.stdin.read()).render(spp=1_000_000_000, device='cpu')")
 
+    @unittest.skipIf(os.name == "nt", "signals of Unix")
+    def test_ctrl_c_ends_pictures_on_the_way(self):
+        self.interrupt("list(gpt.Scene.from_toml(sys.stdin.read()).render_progressively(spp=1_000_000_000, seconds=1e6, device='cpu'))")
+
     @unittest.skipIf(os.name == "nt" or device() == "cpu", "signals of Unix, and a device to verify")
     def test_ctrl_c_ends_verification(self):
         self.interrupt("gpt.verify(gpt.Scene.from_toml(sys.stdin.read()), size=(400, 400), spp=1_000_000)")
@@ -249,6 +256,322 @@ class Settings(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()) as said:
             self.scene.render(spp=4, device="cpu", progress=True)
         self.assertIn("100% [##############################]", said.getvalue())
+
+
+class Written(unittest.TestCase):
+    """Scenes as text, as dictionaries and as files again."""
+
+    def same(self, scene, again, **keywords):
+        ours, theirs = (each.render(spp=2, device="cpu", **keywords).pixels for each in (scene, again))
+        self.assertGreater(ours.sum(), 0)
+        self.assertEqual(ours.tobytes(), theirs.tobytes())
+
+    def test_text_and_dictionaries_give_the_same_picture(self):
+        for scene in (gpt.Scene.from_toml(SCENE), gpt.Scene.load("cornell"), gpt.Scene.load("teapot-plastic")):
+            small = {"size": (24, 16)}
+            self.same(scene, gpt.Scene.from_dict(scene.to_dict()), **small)
+            if scene.name != "teapot-plastic":
+                self.same(scene, gpt.Scene.from_toml(scene.to_toml()), **small)
+        # The control: what the dictionary says counts.
+        changed = gpt.Scene.from_toml(SCENE).to_dict()
+        changed["material"][0]["reflectance"] = [0.6, 0.3, 0.25]
+        with self.assertRaises(AssertionError):
+            self.same(gpt.Scene.from_toml(SCENE), gpt.Scene.from_dict(changed))
+
+    def test_arrays_come_back(self):
+        """Files of arrays are gone once they are read: the scene has them in memory."""
+        side, random = 40, np.random.default_rng(1)
+        grid = np.stack(np.meshgrid(np.linspace(-1, 1, side), np.linspace(-1, 1, side)), axis=-1).reshape(-1, 2)
+        positions = np.column_stack([grid, 0.1 * random.random(side * side)])
+        corner = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).reshape(-1, 1)
+        faces = np.concatenate([corner + [0, 1, side], corner + [1, side + 1, side]])
+        mesh = {"type": "mesh", "positions": positions, "faces": faces, "uvs": grid, "material": "clay"}
+        scene = gpt.Scene.from_dict(
+            {
+                **gpt.Scene.from_toml(SCENE).to_dict(),
+                "texture": [{"name": "paint", "type": "image", "file": random.random((8, 8, 3))}],
+                "material": [{"name": "clay", "type": "diffuse", "reflectance": {"texture": "paint"}}],
+                "shape": [mesh],
+            }
+        )
+        description = scene.to_dict()
+        shape, texture = description["shape"][0], description["texture"][0]
+        np.testing.assert_array_equal(shape["positions"], positions.astype(np.float32))
+        np.testing.assert_array_equal(shape["faces"], faces)
+        self.assertIsInstance(texture["file"], gpt.FileContent)
+        self.same(scene, gpt.Scene.from_dict(description))
+        with self.assertRaisesRegex(gpt.SceneError, "2 of the scene's meshes, pictures and lists came from no file"):
+            scene.to_toml()
+        with tempfile.TemporaryDirectory() as folder:
+            written = scene.save(Path(folder, "again.toml"))
+            self.assertEqual([path.suffix for path in written], [".exr", ".ply", ".toml"])
+            again = gpt.Scene.load(written[-1])
+            self.same(scene, again)
+            # Its files are there now, and named from wherever the text is to lie.
+            self.same(scene, gpt.Scene.from_toml(again.to_toml(folder=folder), folder=folder))
+            self.assertIn('file = "again.files/', again.to_toml(folder=folder))
+            with self.assertRaises(OSError):
+                again.save(written[-1])
+            with self.assertRaisesRegex(ValueError, "ends in .toml"):
+                scene.save(Path(folder, "again.txt"))
+
+    def test_it_is_what_the_program_writes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, by_program = Path(folder, "ball.toml"), Path(folder, "saved.toml")
+            file.write_text(SCENE)
+            subprocess.run([PROGRAM, "render", file, "--device", "cpu", "-q", "-o", Path(folder, "ball.exr"), "--save-scene", by_program], check=True)
+            ours = gpt.Scene.load(file)
+            self.assertEqual(ours.to_toml(folder=folder), by_program.read_text())
+            ours.save(Path(folder, "ours.toml"))
+            self.assertEqual(Path(folder, "ours.toml").read_bytes(), by_program.read_bytes())
+
+
+class Regrouping(unittest.TestCase):
+    TWO = SCENE.replace("intensity = [40, 30, 20]", 'intensity = [40, 30, 20]\nlight_group = "key"') + """
+[[light]]
+type = "point"
+position = [-3, 1, 5]
+intensity = 10
+light_group = "fill"
+[[light]]
+type = "directional"
+direction = [0, -1, 0]
+irradiance = 0.2
+"""
+
+    def test_groups_are_weighed(self):
+        scene = gpt.Scene.from_toml(self.TWO)
+        picture = scene.render(device="cpu", layers=["groups", "depth", "ids", "variance"])
+        self.assertEqual(sorted(picture.light_groups), ["fill", "key", "rest"])
+        same = gpt.regroup(picture, {})
+        np.testing.assert_allclose(same.pixels, picture.pixels, rtol=1e-5, atol=1e-6)
+        other = gpt.regroup(picture, {"key": 2, "fill": (0.5, "#ff00ff")})
+        expected = 2.0 * picture.layers["key"] + [0.5, 0, 0.5] * picture.layers["fill"] + picture.layers["rest"]
+        np.testing.assert_allclose(other.pixels, expected, rtol=1e-5, atol=1e-6)
+        self.assertEqual(sorted(other.layers), ["MaterialId", "ObjectId", "Z", "fill", "key", "rest"])
+        np.testing.assert_array_equal(other.layers["ObjectId"], picture.layers["ObjectId"])
+        self.assertEqual((other.stats["left_out"], other.stats["regrouped"]["key"]), (["variance"], [2, 2, 2]))
+        back = gpt.regroup(other, {"key": 0.5, "fill": 0})
+        np.testing.assert_allclose(back.pixels, picture.layers["key"] + picture.layers["rest"], rtol=1e-5, atol=1e-6)
+        # The control: other weights are another picture.
+        self.assertGreater(np.abs(other.pixels - picture.pixels).max(), 0.01)
+
+    def test_it_is_what_the_program_does(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, whole, by_program = Path(folder, "two.toml"), Path(folder, "two.exr"), Path(folder, "other.exr")
+            file.write_text(self.TWO)
+            subprocess.run([PROGRAM, "render", file, "--device", "cpu", "-q", "-o", whole, "--aov", "groups"], check=True)
+            subprocess.run([PROGRAM, "regroup", whole, "-g", "key=2,#ffddaa", "-o", by_program], check=True)
+            expected = gpt.Picture.open(by_program).pixels
+            of_file = gpt.regroup(whole, {"key": (2, "#ffddaa")})
+            self.assertEqual(of_file.pixels.tobytes(), expected.tobytes())
+            self.assertEqual(of_file.light_groups, ("key", "fill", "rest"))
+            in_memory = gpt.regroup(gpt.Scene.load(file).render(device="cpu", layers="groups"), {"key": (2, "#ffddaa")})
+            self.assertEqual(in_memory.pixels.tobytes(), expected.tobytes())
+
+    def test_layers_are_saved_as_the_program_saves_them(self):
+        names = "normal,depth,alpha,variance,samples,ids,cryptomatte,groups"
+        with tempfile.TemporaryDirectory() as folder:
+            file, by_program, ours, plain = (Path(folder, name) for name in ("two.toml", "program.exr", "ours.exr", "plain.exr"))
+            file.write_text(self.TWO)
+            subprocess.run([PROGRAM, "render", file, "--device", "cpu", "-q", "-o", by_program, "--aov", names], check=True)
+            scene = gpt.Scene.load(file)
+            picture = scene.render(device="cpu", layers=names.split(","))
+            picture.save(ours)
+            self.assertEqual(ours.read_bytes(), by_program.read_bytes())
+            again = gpt.Scene.load(file).render(spp=32, device="cpu", layers=["uv", "direct", "object_position"])
+            again.save(ours)
+            arguments = [PROGRAM, "render", file, "--spp", "32", "--device", "cpu", "-q", "-o", by_program, "--aov", "uv,direct,object_position"]
+            subprocess.run(arguments, check=True)
+            self.assertEqual(ours.read_bytes(), by_program.read_bytes())
+            # The control: without its layers it is another file.
+            scene.render(device="cpu").save(plain)
+            self.assertNotEqual(plain.read_bytes(), by_program.read_bytes())
+            # A picture that was regrouped keeps its groups in its file.
+            gpt.regroup(picture, {"key": 2}).save(ours)
+            self.assertEqual(gpt.regroup(ours, {"key": 0.5}).light_groups, picture.light_groups)
+            np.testing.assert_allclose(gpt.regroup(ours, {"key": 0.5}).pixels, picture.pixels, rtol=1e-5, atol=1e-6)
+            picture.save(Path(folder, "preview.png"))
+
+    def test_wrong_weights_are_exceptions(self):
+        picture = gpt.Scene.from_toml(self.TWO).render(device="cpu", spp=1, layers=["groups"])
+        for weights, words in (({"kye": 1}, "no light group"), ({"key": -1}, "no factor"), ({"key": "red"}, "no factor"), ({"key": (1, 2)}, "one factor")):
+            with self.assertRaisesRegex(ValueError, words):
+                gpt.regroup(picture, weights)
+        with self.assertRaisesRegex(ValueError, "no light groups"):
+            gpt.regroup(gpt.Scene.from_toml(self.TWO).render(device="cpu", spp=1), {"key": 1})
+        with self.assertRaises(OSError):
+            gpt.regroup("missing.exr", {"key": 1})
+
+
+class Sequences(unittest.TestCase):
+    MOVING = SCENE.replace("intensity = [40, 30, 20]", "intensity = [40, 30, 20]\nkeyframes = [{ frame = 0, position = [3, 4, 5] }, { frame = 10, position = [-3, 4, 5] }]")
+
+    def test_frames_are_those_of_the_program(self):
+        scene = gpt.Scene.from_toml(self.MOVING)
+        pictures = list(scene.render_frames("1,4-8x2", device="cpu", layers=["depth"]))
+        self.assertEqual([picture.stats["frame"] for picture in pictures], [1, 4, 6, 8])
+        self.assertEqual(len({picture.pixels.tobytes() for picture in pictures}), 4, "they differ")
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "ball.toml")
+            file.write_text(self.MOVING)
+            subprocess.run([PROGRAM, "render", file, "--device", "cpu", "-q", "--frames", "1,4-8x2", "-o", Path(folder, "f.#.exr")], check=True)
+            for frame, picture in zip((1, 4, 6, 8), pictures):
+                self.assertEqual(gpt.Picture.open(Path(folder, f"f.{frame}.exr")).pixels.tobytes(), picture.pixels.tobytes(), frame)
+        between = next(scene.render_frames([2.5], device="cpu"))
+        self.assertEqual(between.pixels.tobytes(), scene.at_frame(2.5).render(device="cpu").pixels.tobytes())
+        self.assertEqual(list(scene.render_frames([], device="cpu")), [])
+
+    def test_mistakes_are_exceptions(self):
+        scene = gpt.Scene.from_toml(self.MOVING)
+        with self.assertRaisesRegex(ValueError, "ends before it begins"):
+            scene.render_frames("5-1")
+        with self.assertRaisesRegex(TypeError, "max_depht"):
+            scene.render_frames("1", max_depht=1)
+        with self.assertRaisesRegex(ValueError, "no keyframes"):
+            next(gpt.Scene.from_toml(SCENE).render_frames("1", device="cpu"))
+        with self.assertRaisesRegex(gpt.SceneError, "a frame is a finite number"):
+            list(scene.render_frames([1, float("nan")], device="cpu"))
+
+    def test_who_leaves_early_ends_it(self):
+        scene = gpt.Scene.from_toml(self.MOVING)
+        start = time.monotonic()
+        for _ in scene.render_frames(range(1, 1000), device="cpu"):
+            break
+        for _ in scene.render_progressively(spp=100_000_000, seconds=0, device="cpu"):
+            break
+        self.assertLess(time.monotonic() - start, 60)
+
+    def test_pictures_get_better(self):
+        scene = gpt.Scene.from_toml(SCENE)
+        truth = scene.render(spp=4096, device="cpu", seed=7).pixels
+        pictures = list(scene.render_progressively(spp=2000, seconds=0, device="cpu", layers=["depth"]))
+        counts = [picture.stats["spp_done"] for picture in pictures]
+        self.assertGreater(len(pictures), 2)
+        self.assertEqual((counts, counts[-1]), (sorted(counts), 2000))
+        errors = [gpt.compare(picture, truth).mse for picture in (pictures[0], pictures[-1])]
+        self.assertLess(errors[1], 0.5 * errors[0])
+        last = scene.render(spp=2000, device="cpu", layers=["depth"])
+        self.assertEqual(pictures[-1].pixels.tobytes(), last.pixels.tobytes())
+        self.assertEqual(pictures[-1].layers["Z"].tobytes(), last.layers["Z"].tobytes())
+        self.assertEqual((pictures[0].layers, pictures[0].stats["stopped_by"], pictures[-1].stats["stopped_by"]), ({}, None, "samples"))
+        # The control: a look on the way is not the last picture.
+        self.assertNotEqual(pictures[0].pixels.tobytes(), last.pixels.tobytes())
+
+    def test_progress_is_told_and_may_end_it(self):
+        told = []
+        list(gpt.Scene.from_toml(self.MOVING).render_frames([1, 2], device="cpu", progress=lambda done, total: told.append((done, total))))
+        self.assertEqual(told[-1], (8 * 24 * 16, 8 * 24 * 16))
+
+        def enough(done, total):
+            raise RuntimeError("enough")
+
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            list(gpt.Scene.from_toml(SCENE).render_progressively(spp=100_000_000, seconds=1e6, device="cpu", progress=enough))
+
+    def test_a_notebook_shows_a_live_picture(self):
+        shown, ids = [], []
+
+        class Handle:
+            def update(self, value, raw=False):
+                shown.append(value)
+
+        class Shell:
+            kernel = object()
+
+        def display(value, raw=False, display_id=False):
+            ids.append(display_id)
+            return Handle()
+
+        ipython, of_display = types.ModuleType("IPython"), types.ModuleType("IPython.display")
+        ipython.get_ipython, of_display.display = Shell, display
+        scene = gpt.Scene.from_toml(SCENE)
+        with unittest.mock.patch.dict(sys.modules, {"IPython": ipython, "IPython.display": of_display}):
+            picture = scene.render(spp=2000, device="cpu", live=True)
+        self.assertEqual(ids, [True], "one output, which is written anew")
+        self.assertTrue(all(isinstance(value, gpt.Picture) and value._repr_png_()[:4] == b"\x89PNG" for value in shown), shown)
+        self.assertIs(shown[-1], picture)
+        self.assertEqual(picture.pixels.tobytes(), scene.render(spp=2000, device="cpu").pixels.tobytes())
+        # The control: without a notebook there is a bar.
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            scene.render(spp=4, device="cpu", live=True)
+        self.assertIn("100% [", said.getvalue())
+        self.assertEqual(len(ids), 1)
+
+
+class Referee(unittest.TestCase):
+    def test_tests_are_those_of_the_program(self):
+        listed = json.loads(subprocess.run([PROGRAM, "referee", "list", "--json"], capture_output=True, text=True, check=True).stdout)
+        ours = [{"name": test.name, "about": test.about, "decides": test.decides, "mistakes": list(test.mistakes)} for test in referee.tests()]
+        self.assertEqual(ours, listed)
+        self.assertEqual([test.name for test in referee.tests("lights/point", "lights/sphere")], ["lights/point", "lights/sphere"])
+        self.assertTrue(all(test.family == "lights" for test in referee.tests("lights")))
+        with self.assertRaisesRegex(ValueError, "no test and no family 'lihgts'"):
+            referee.tests("lihgts")
+
+    def test_truths_are_arrays(self):
+        point, room = referee.tests("lights/point", "transport/room")
+        truth = point.truth()
+        self.assertEqual((truth.mean.shape, truth.mean.dtype), ((*reversed(point.size), 3), np.float32))
+        self.assertEqual((point.is_formula, float(truth.standard_error.max())), (True, 0))
+        # The light stands above (0.4, 0.3); the plane's reflectance is 1/2.
+        x, y = (np.arange(64) + 0.5) / 32 - 1, 1 - (np.arange(64) + 0.5) / 32
+        square = (x[None, :] - 0.4) ** 2 + (y[:, None] - 0.3) ** 2 + 1
+        np.testing.assert_allclose(truth.mean[..., 0], 1.5 / np.pi / square**1.5, rtol=1e-3)
+        self.assertFalse(room.is_formula)
+        self.assertGreater(room.truth().standard_error.max(), 0)
+
+    def test_right_and_wrong_pictures(self):
+        (test,) = referee.tests("lights/point")
+        right = {seed: test.scene().render(64, seed=seed, device="cpu").pixels for seed in (1, 2)}
+        outcome = test.judge(right)
+        self.assertTrue(outcome and outcome.verdict == "agrees" and outcome.cause is None, outcome)
+        self.assertLess(outcome.would_find, 0.02)
+        # The controls: five per cent too much, and mistakes that have names.
+        bright = test.judge({seed: pixels * np.float32(1.05) for seed, pixels in right.items()})
+        self.assertFalse(bright)
+        self.assertEqual((bright.verdict, bright.cause), ("differs", "everything times 1.0500"))
+        self.assertTrue(0.04 < bright.off_by_at_least < 0.06 and "off by at least" in bright.sentence, bright)
+        self.assertEqual(test.judge([pixels * np.float32(1 / (4 * np.pi)) for pixels in right.values()]).cause, test.mistakes[0])
+        self.assertEqual(test.judge([pixels[:, ::-1] for pixels in right.values()]).cause, "a picture whose left is its right")
+        failed = test.judge([np.full_like(right[1], np.nan)])
+        self.assertEqual((failed.verdict, bool(failed)), ("failed", False))
+        self.assertIn("not finite", failed.sentence)
+        with self.assertRaises(ValueError):
+            test.judge([])
+        with self.assertRaises(ValueError):
+            test.judge([right[1], right[2][:32]])
+        with self.assertRaises(ValueError):
+            test.judge(right, false_alarms=1.5)
+
+    def test_renderers_are_asked(self):
+        def mine(test, spp, seed):
+            if test.name == "lights/sphere":
+                raise referee.NotSupported("there are no area lights")
+            return test.scene().render(spp, seed=seed, device="cpu")
+
+        outcomes = referee.run(mine, "lights/point", "lights/sphere", "textures/srgb", "transport/room", spp=32)
+        self.assertEqual([outcome.verdict for outcome in outcomes], ["agrees", "not supported", "agrees", "agrees"])
+        self.assertTrue(all(outcomes))
+        self.assertEqual(str(outcomes[1]), "lights/sphere: not supported: there are no area lights")
+        dark = referee.run(lambda test, spp, seed: mine(test, spp, seed).pixels * 0.95, "lights/point", spp=32)
+        self.assertEqual([outcome.verdict for outcome in dark], ["differs"])
+
+    def test_verdicts_are_those_of_the_program(self):
+        (test,) = referee.tests("lights/disk")
+        with tempfile.TemporaryDirectory() as folder:
+            pictures = {}
+            for seed, suffix in ((1, ""), (2, "-2")):
+                picture = test.scene().render(16, seed=seed, device="cpu").pixels * np.float32(1.05)
+                pictures[seed] = Path(folder, f"lights-disk{suffix}.exr")
+                rows, columns, _ = picture.shape
+                gpt.Picture(gpt._native.Picture.from_bytes(columns, rows, picture.tobytes()), {}, {}).save(pictures[seed])
+            said = subprocess.run([PROGRAM, "referee", "run", "lights/disk", "--pictures", folder, "--json", "-q"], capture_output=True, text=True)
+            theirs = json.loads(said.stdout)["tests"][0]
+            ours = referee.judge({"lights/disk": pictures})[0].details
+        del ours["difference"]["sentence"]
+        for key, value in ours.items():
+            self.assertEqual(json.dumps(value), json.dumps(theirs[key]), key)
 
 
 class Measuring(unittest.TestCase):

@@ -132,15 +132,43 @@ struct Estimate {
 /// Compares two pictures made from the same random numbers. The pixels of a region are the sample, so a region of a single pixel is
 /// judged by the margin alone.
 pub fn compare_paired(first: ImageView, second: ImageView, settings: &TileSettings) -> Result<ImageComparison, ComparisonError> {
+    paired(first, second, None, settings)
+}
+
+/// Compares as [`compare_paired`] does, where the pixels' differences scatter by these variances at least: those of a tile may be alike because hardly
+/// any sample has found its light.
+///
+/// # Errors
+/// Pictures of different sizes.
+pub fn compare_paired_above(
+    [first, second]: [ImageView; 2],
+    least: ImageView,
+    settings: &TileSettings,
+) -> Result<ImageComparison, ComparisonError> {
+    Layout::of(&[first, second, least])?;
+    paired(first, second, Some(least), settings)
+}
+
+fn paired(
+    first: ImageView,
+    second: ImageView,
+    least: Option<ImageView>,
+    settings: &TileSettings,
+) -> Result<ImageComparison, ComparisonError> {
     let layout = Layout::of(&[first, second])?;
     Ok(layout.judge(settings, |region, channel| {
         let pairs = || layout.pixels(region).map(|i| (f64::from(first.pixels[i][channel]), f64::from(second.pixels[i][channel])));
         let differences: Moments = pairs().map(|(a, b)| a - b).collect();
         let lone = differences.count() == 1;
+        let scatter = if lone { 0.0 } else { differences.standard_error() };
+        let least = least.map_or(0.0, |least| {
+            let variance: f64 = layout.pixels(region).map(|i| f64::from(least.pixels[i][channel])).sum();
+            variance.sqrt() / differences.count() as f64
+        });
         Estimate {
             first: pairs().map(|pair| pair.0).collect::<Moments>().mean(),
             second: pairs().map(|pair| pair.1).collect::<Moments>().mean(),
-            standard_error: if lone { 0.0 } else { differences.standard_error() },
+            standard_error: scatter.max(least),
             degrees_of_freedom: differences.count() as f64 - 1.0,
         }
     }))

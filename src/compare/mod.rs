@@ -17,7 +17,7 @@ pub mod moments;
 pub use hypothesis::{TestResult, one_sample_t_test, one_sample_t_test_beyond, paired_t_test, sidak, welch_t_test, z_test};
 pub use image_tests::{
     Finding, ImageComparison, ImageView, Region, Scatter, TileSettings, compare_independent, compare_measured, compare_paired,
-    compare_replications,
+    compare_paired_above, compare_replications,
 };
 pub use metrics::{Comparison, Extreme, Metric, MetricValue, RELATIVE_EPSILON, SizeMismatch, compare, relative_weight};
 pub use moments::Moments;

@@ -73,6 +73,19 @@ impl Channels {
         Ok(Self { width, height, values, attributes })
     }
 
+    /// Channels of this size that are in no file, each row by row from the top, with what a header would say; None where one has another number of
+    /// values.
+    pub fn of_memory(
+        [width, height]: [u32; 2],
+        channels: impl IntoIterator<Item = (String, Vec<f32>)>,
+        attributes: impl IntoIterator<Item = (String, String)>,
+    ) -> Option<Self> {
+        let values: BTreeMap<String, Vec<f32>> = channels.into_iter().collect();
+        let pixels = width as usize * height as usize;
+        let fits = pixels > 0 && values.values().all(|channel| channel.len() == pixels);
+        fits.then(|| Self { width, height, values, attributes: attributes.into_iter().collect() })
+    }
+
     /// The values of a channel.
     pub fn channel(&self, name: &str) -> Option<&[f32]> {
         self.values.get(name).map(Vec::as_slice)

@@ -8,6 +8,7 @@
 //!   their number. What is rejected is rendered again, several times, and only what those reject too is a difference: a few bright samples
 //!   that the golden picture happened to miss do not count.
 //! - [`candidate`]: the same for pictures of other programs.
+//! - `unseen`: the noise that pictures of few samples have and do not show.
 
 pub mod bless;
 pub mod candidate;
@@ -18,6 +19,7 @@ pub mod replications;
 
 mod error;
 mod settings;
+mod unseen;
 
 pub use error::PictureTestError;
 pub use settings::TestSettings;

@@ -2,6 +2,11 @@
 
 use super::judge::{Outcome, Seeds, judge};
 use super::picture::{TruthPicture, linear_to_srgb, srgb_value_to_linear};
+use super::replay::{ReplayError, by_reference};
+use super::test::{Test, VariantPicture};
+
+/// Samples of a picture of a mistake, in each of its parts.
+const SAMPLES_OF_MISTAKE: u32 = 16;
 
 /// A picture that a mistake leads to.
 pub struct Suspect {
@@ -115,6 +120,36 @@ pub fn explained_by<'s>(suspects: &'s [Suspect], width: u32, pictures: &[&[[f32;
     let mut found: Vec<_> = suspects.iter().filter(agrees).map(|suspect| (distance(suspect), suspect.cause.as_str())).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().map(|(_, cause)| cause).collect()
+}
+
+/// Causes of the difference of pictures of a test, the nearest first: mistakes of the test and those that any test may show, or else a factor.
+///
+/// # Errors
+/// Errors of the reference, which renders the pictures of mistakes that no formula tells.
+pub fn causes_of(
+    test: &Test,
+    truth: &TruthPicture,
+    (width, pictures): (u32, &[&[[f32; 3]]]),
+    (seeds, level): (Seeds, f64),
+) -> Result<Vec<String>, ReplayError> {
+    let mut suspects = Vec::new();
+    for variant in &test.variants {
+        let picture = match &variant.picture {
+            VariantPicture::Formula(formula) => formula.picture(test.size()),
+            VariantPicture::Scene(scene) => by_reference(test.name, scene, &test.files, SAMPLES_OF_MISTAKE)?,
+        };
+        suspects.push(Suspect { cause: variant.cause.to_owned(), picture });
+    }
+    suspects.extend(general_suspects(truth));
+    let explained = |suspects: &[Suspect]| -> Vec<String> {
+        explained_by(suspects, width, pictures, seeds, level).into_iter().map(str::to_owned).collect()
+    };
+    let found = explained(&suspects);
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    let scaled: Vec<Suspect> = pictures.first().and_then(|pixels| scaled_suspect(truth, pixels)).into_iter().collect();
+    Ok(explained(&scaled))
 }
 
 #[cfg(test)]

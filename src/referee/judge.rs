@@ -68,6 +68,50 @@ impl Difference {
     pub fn at_least_share(&self) -> Option<f64> {
         (self.truth != 0.0).then(|| self.at_least / self.truth.abs())
     }
+
+    /// The channel in a word.
+    pub fn channel_name(&self) -> &'static str {
+        ["red", "green", "blue"][self.channel]
+    }
+
+    /// A clause on how far the picture is off, and where.
+    pub fn sentence(&self) -> String {
+        let Region { x, y, width, height } = self.region;
+        let by = self.at_least_share().map_or_else(|| format!("{:.3e}", self.at_least), percent);
+        let channel = self.channel_name();
+        match self.of {
+            DifferenceOf::Pixels => {
+                format!("pixels are off by at least {by} of the mean ({channel}, root mean square); means are right")
+            }
+            DifferenceOf::Means => format!(
+                "off by at least {by} ({channel}, {width}×{height} pixels at {x}, {y}: {:.5e}, and {:.5e} is true)",
+                self.found, self.truth
+            ),
+        }
+    }
+}
+
+impl DifferenceOf {
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Means => "means",
+            Self::Pixels => "pixels",
+        }
+    }
+}
+
+/// A share with two digits or so.
+pub fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    let digits = if value >= 10.0 {
+        0
+    } else if value >= 1.0 {
+        1
+    } else {
+        2
+    };
+    format!("{value:.digits$} %")
 }
 
 /// How the pictures of a test came to their random numbers.

@@ -87,21 +87,41 @@ impl GroupedPicture {
     /// [`RegroupError::Read`], [`RegroupError::NoGroups`] and [`RegroupError::NoChannels`].
     pub fn read(path: &Path) -> Result<Self, RegroupError> {
         let channels = Channels::read(path)?;
-        let names: Vec<String> = match channels.attribute(LIGHT_GROUPS_KEY) {
-            Some(list) => list.split(',').filter(|name| !name.is_empty()).map(str::to_owned).collect(),
-            None => Vec::new(),
-        };
-        if names.is_empty() {
-            return Err(RegroupError::NoGroups);
-        }
+        // A picture without groups is none of ours, whatever else is wrong with it.
+        Self::names(&channels)?;
         let read = read_picture(path)?;
+        Self::of_channels(channels, read.covered, read.notes)
+    }
+
+    /// A picture that is in memory: all of its channels by their names in EXR files, and what its header would say of its layers and its groups.
+    ///
+    /// # Errors
+    /// [`RegroupError::NoGroups`] and [`RegroupError::NoChannels`].
+    pub fn of_memory(channels: Channels) -> Result<Self, RegroupError> {
+        let whole = [0, 0, channels.width, channels.height];
+        Self::of_channels(channels, whole, Vec::new())
+    }
+
+    fn names(channels: &Channels) -> Result<Vec<String>, RegroupError> {
+        let list = channels.attribute(LIGHT_GROUPS_KEY).unwrap_or_default();
+        let names: Vec<String> = list.split(',').filter(|name| !name.is_empty()).map(str::to_owned).collect();
+        if names.is_empty() { Err(RegroupError::NoGroups) } else { Ok(names) }
+    }
+
+    fn of_channels(channels: Channels, covered: [u32; 4], notes: Vec<String>) -> Result<Self, RegroupError> {
+        let names = Self::names(&channels)?;
         let light = |name: &String| {
             let [red, green, blue] = group_channels(name);
             let colours = channels.colours([&red, &green, &blue]).ok_or_else(|| RegroupError::NoChannels(name.clone()))?;
-            Ok(cut(&colours, channels.width, read.covered))
+            Ok(cut(&colours, channels.width, covered))
         };
         let lights = names.iter().map(light).collect::<Result<_, RegroupError>>()?;
-        Ok(Self { names, lights, covered: read.covered, notes: read.notes, channels })
+        Ok(Self { names, lights, covered, notes, channels })
+    }
+
+    /// The groups' names, in their order.
+    pub fn names_of_groups(&self) -> &[String] {
+        &self.names
     }
 
     /// The picture with its groups weighed so; those without a weight stay as they are. Every pixel is Σ wᵢ·Lᵢ, in double precision, rounded once.

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::progressive::Outcome;
 use crate::compare::{self, Comparison};
 use crate::error::Error;
-use crate::film::Band;
-use crate::output::{self, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_picture};
+use crate::film::{Band, Layer};
+use crate::output::{self, LayerChannel, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_picture};
 
 /// A picture: linear Rec. 709 radiance, row by row from the top.
 ///
@@ -136,17 +136,31 @@ impl Image {
     /// # Errors
     /// [`Error::Write`].
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        Ok(self.write(path.as_ref())?)
+        Ok(self.write(path.as_ref(), PictureSpec::default())?)
     }
 
-    fn write(&self, path: &Path) -> Result<(), OutputError> {
+    /// Writes the picture as [`Image::save`] does, an EXR file with these layers and entries of the header.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    #[doc(hidden)]
+    pub fn save_with(
+        &self,
+        path: impl AsRef<Path>,
+        (layers, layer_names): (Vec<LayerChannel>, Vec<Layer>),
+        notes: Vec<(String, String)>,
+    ) -> Result<(), Error> {
+        Ok(self.write(path.as_ref(), PictureSpec { layers, layer_names, notes, ..PictureSpec::default() })?)
+    }
+
+    fn write(&self, path: &Path, spec: PictureSpec) -> Result<(), OutputError> {
         let format = PictureFormat::from_path(path).ok_or_else(|| OutputError::BadTarget {
             path: path.to_owned(),
             what: "the ending names no picture format; .exr, .hdr, .png and .jpg do",
         })?;
         let output::Image { width, height, ref pixels } = self.pixels;
         let provenance = self.rendered.as_ref().map(|rendered| rendered.provenance.clone());
-        let mut file = PictureFile::create(path, format, &PictureSpec { width, height, provenance, ..PictureSpec::default() })?;
+        let mut file = PictureFile::create(path, format, &PictureSpec { width, height, provenance, ..spec })?;
         let samples = self.fewest_samples();
         let counts = self.rendered.as_ref().and_then(|rendered| rendered.counts.clone());
         let band = Band { first_row: 0, width, rows: height, samples, counts, mean: pixels.clone(), ..Band::default() };

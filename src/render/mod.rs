@@ -9,6 +9,7 @@
 pub mod checkpoint;
 pub mod cryptomatte;
 pub mod error_estimate;
+pub mod frames;
 mod free_memory;
 pub mod image;
 pub mod intervals;

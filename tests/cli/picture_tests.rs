@@ -130,6 +130,28 @@ fn pictures_of_other_programs_are_candidates() {
     assert!(text(&twice.stdout).contains("several pictures are of one scene"), "{}", text(&twice.stdout));
 }
 
+/// A ball reaches a little into tiles beside it, and 16 samples of a pixel find nothing of it there.
+#[test]
+fn light_that_few_samples_find_is_no_difference() {
+    let place = workplace();
+    rewrite(&place, "scenes/lit.toml", "position = [0, 0, 4]", "position = [0, 0, 5.5]");
+    let bless = format!("{TEST} lit --bless -q --max-spp 512");
+    place.expect(0, &bless);
+    fs::create_dir(place.path("theirs")).expect("a folder");
+    for layers in ["", " --aov variance,samples"] {
+        for seed in 0..3 {
+            let render = format!("render scenes/lit.toml --spp 16 --seed {seed} --device cpu -q{layers} -o theirs/lit.exr");
+            place.expect(0, &render);
+            let (code, said) = report(&place, &format!("{TEST} lit --candidate-dir theirs"));
+            assert_eq!(code, Some(0), "seed {seed}{layers}: {said}");
+        }
+    }
+    // The control: as dark as those tiles are, a ball a quarter brighter is found.
+    rewrite(&place, "scenes/lit.toml", "reflectance = 0.5", "reflectance = 0.625");
+    place.expect(0, "render scenes/lit.toml --spp 16 --device cpu -q --aov variance,samples -o theirs/lit.exr");
+    assert_eq!(report(&place, &format!("{TEST} lit --candidate-dir theirs")).0, Some(7));
+}
+
 /// ꟻLIP alone can fail a test, and its limit is in the verdict.
 #[test]
 fn the_eye_may_have_a_limit() {

@@ -11,19 +11,21 @@ The program `gpt` comes with the package.
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import json
 import os
 import tempfile
+import uuid
 from dataclasses import dataclass
 from pathlib import Path as _Folder
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _native
-from ._description import SettingValue, setting_text, text_of
-from ._display import Bar
+from ._description import FileContent, SettingValue, dictionary_of, setting_text, text_of
+from ._display import Bar, Canvas
 from ._native import DeviceError, Error, SceneError, __version__
 
 if TYPE_CHECKING:
@@ -32,11 +34,14 @@ if TYPE_CHECKING:
     Pixels = NDArray[np.float32]
     Layer = NDArray[Any]
     Path = Union[str, os.PathLike[str]]
+    Weight = Union[float, str, Sequence[Union[float, str]]]
+    Progress = Union[bool, Callable[[int, int], object], None]
 
 __all__ = [
     "Comparison",
     "DeviceError",
     "Error",
+    "FileContent",
     "Measurement",
     "Picture",
     "Scene",
@@ -47,6 +52,8 @@ __all__ = [
     "builtin_scenes",
     "compare",
     "measure",
+    "referee",
+    "regroup",
     "settings",
     "verify",
 ]
@@ -63,6 +70,18 @@ class Picture:
         self.layers = dict(layers)
         #: What the render did, with the names of `gpt render --stats`; empty of a picture that was read.
         self.stats = stats
+        #: Names of the light groups that are among the layers.
+        self.light_groups: Tuple[str, ...] = ()
+        self._channels: List[str] = []
+        self._layer_list = ""
+        self._notes: List[Tuple[str, str]] = []
+
+    @staticmethod
+    def _of(made: _native.Rendered) -> Picture:
+        picture = Picture(made.picture, {name: np.asarray(layer) for name, layer in made.layers.items()}, json.loads(made.stats))
+        picture.light_groups = tuple(made.groups)
+        picture._channels, picture._layer_list, picture._notes = made.channels, made.layer_list, made.notes
+        return picture
 
     @staticmethod
     def open(path: Path) -> Picture:
@@ -90,8 +109,20 @@ class Picture:
         return pixels.copy() if copy else pixels
 
     def save(self, path: Path) -> None:
-        """Writes the picture: .exr and .hdr hold the radiance, .png and .jpg are previews. Layers are not written; `gpt render --aov` does that."""
-        self._native.save(os.fspath(path))
+        """Writes the picture: .exr and .hdr hold the radiance, .png and .jpg are previews. An .exr has its layers too, as `gpt render --aov` writes them."""
+        is_exr = os.fspath(path).lower().endswith(".exr")
+        channels = [(name, numbers.tobytes(), is_whole) for name, numbers, is_whole in self._numbers()] if is_exr else []
+        self._native.save(os.fspath(path), channels, self._layer_list, self._notes)
+
+    def _numbers(self) -> Iterator[Tuple[str, Pixels, bool]]:
+        """Names of the layers' channels in EXR files, their numbers, and whether these are whole."""
+        places: Dict[str, int] = {}
+        for channel in self._channels:
+            layer = channel.rpartition(".")[0] or channel
+            array, place = self.layers[layer], places.get(layer, 0)
+            places[layer] = place + 1
+            numbers = array if array.ndim == 2 else array[..., place]
+            yield channel, np.ascontiguousarray(numbers, dtype=np.float32), array.dtype == np.uint32
 
     def to_xarray(self) -> Any:
         """The picture and its layers as an `xarray.Dataset`: `radiance` and the layers by their names, along `y` (rows from the top), `x` and, where they
@@ -173,6 +204,35 @@ class Scene:
         """Reads the text of a scene file. Paths in it are relative to `folder`."""
         return Scene(_native.Scene.from_toml(text, os.fspath(folder)))
 
+    def to_toml(self, *, folder: Path = "") -> str:
+        """The text of a scene file that renders the same picture, bit for bit; `from_toml` reads it. Files are named by their paths from `folder`.
+
+        Meshes and pictures that came from no file have no place in a text: `save` writes them beside the file, and `to_dict` holds them.
+        """
+        text, files = self._native.written(os.path.join(os.fspath(folder), "scene.toml"))
+        if files:
+            what = f"{len(files)} of the scene's meshes, pictures and lists came from no file and have no place in a text"
+            raise SceneError(f"{what}; save(path) writes them beside the scene file, and to_dict() holds them")
+        return text
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The scene as dictionaries and lists with the keys of a scene file; `from_dict` of it renders the same picture, bit for bit.
+
+        Meshes that came from no file are arrays; other content that did is a `FileContent`. Paths are relative to the working directory.
+        """
+        stem = f"memory-{uuid.uuid4().hex}"
+        text, files = self._native.written(f"{stem}.toml")
+        contents = {f"{stem}.files/{os.path.basename(path)}": content for path, content in files}
+        description: Dict[str, Any] = dictionary_of(_native.tables(text), contents)
+        return description
+
+    def save(self, path: Path) -> List[_Folder]:
+        """Writes a scene file (.toml), and meshes and pictures that came from no file into the folder `NAME.files` beside it, as `gpt render --save-scene` does.
+        All that was written, the scene file last. Files that the scene was read from are never replaced."""
+        if not os.fspath(path).lower().endswith(".toml"):
+            raise ValueError(f"{os.fspath(path)}: a scene file's name ends in .toml")
+        return [_Folder(written) for written in self._native.save(os.fspath(path))]
+
     @property
     def name(self) -> str:
         """The file's name without its ending, or the built-in scene's."""
@@ -210,7 +270,8 @@ class Scene:
         interval_by: Optional[str] = None,
         first_sample: int = 0,
         crop: Optional[Tuple[int, int, int, int]] = None,
-        progress: Union[bool, Callable[[int, int], object], None] = None,
+        progress: Progress = None,
+        live: bool = False,
         **settings: SettingValue,
     ) -> Picture:
         """Renders the scene. Other threads of Python run meanwhile, and Ctrl-C ends it.
@@ -222,9 +283,87 @@ class Scene:
         upper ends stand on a bound of samples or on what was seen (`interval_by`). `first_sample` and `crop` (first column and row, width and height)
         render a part of the samples or the pixels; the picture then has the region's size. `progress` is called with the samples that are done and
         those that are wanted, of each layer and then of the picture, up to ten times a second and at the end; what it raises ends the render. True
-        shows a bar. All other keywords are settings by the names of a scene's `[render]`, such as `max_depth=12, guiding="on"`: `settings()` lists
+        shows a bar. `live` shows the picture while it is rendered, where a notebook runs, and a bar elsewhere. All other keywords are settings by the names of a scene's `[render]`, such as `max_depth=12, guiding="on"`: `settings()` lists
         them.
         """
+        task = self._task(
+            spp,
+            size=size,
+            seed=seed,
+            device=device,
+            layers=layers,
+            time_limit=time_limit,
+            target_error=target_error,
+            adaptive=adaptive,
+            target_interval=target_interval,
+            confidence=confidence,
+            interval_of=interval_of,
+            interval_by=interval_by,
+            first_sample=first_sample,
+            crop=crop,
+            **settings,
+        )
+        canvas = Canvas.of_notebook() if live else None
+        with _watching(progress or (live and canvas is None)) as watcher:
+            if canvas is None:
+                return Picture._of(task.render(watcher))
+            *_, picture = map(canvas.show, _taken(task.progressively(_LIVE_SECONDS, watcher)))
+            return picture
+
+    def render_frames(
+        self, frames: Union[str, Iterable[float]], spp: Optional[int] = None, *, progress: Progress = None, **keywords: Any
+    ) -> Iterator[Picture]:
+        """Pictures of frames of the scene's keyframes, one after the other, as `gpt render --frames` renders them: on a device that stays open, with
+        what does not change made ready once.
+
+        `frames`: numbers, or a text as "1-100", "1-100x5" (every fifth) or "1,5,20-30". `stats["frame"]` of a picture is its frame. The next frame is
+        rendered while a picture is used; leaving the loop ends that. `progress` tells of each frame anew. Keywords are those of `render`.
+        """
+        numbers = _native.frame_list(frames) if isinstance(frames, str) else [float(frame) for frame in frames]
+        task = self._task(spp, **keywords)
+
+        def pictures() -> Iterator[Picture]:
+            with _watching(progress) as watcher:
+                yield from _taken(task.frames(numbers, watcher))
+
+        return pictures()
+
+    def render_progressively(
+        self, spp: Optional[int] = None, *, seconds: float = 0.5, progress: Progress = None, **keywords: Any
+    ) -> Iterator[Picture]:
+        """Pictures of one render that get better, each `seconds` after the one before at least. The last is what `render` gives, bit for bit.
+
+        Those before it have no layers, and a few `stats`, among them `spp_done` of the pixel that has fewest samples; `stopped_by` is None. The render
+        goes on while a picture is used; leaving the loop ends it. Keywords are those of `render`.
+        """
+        task = self._task(spp, **keywords)
+
+        def pictures() -> Iterator[Picture]:
+            with _watching(progress) as watcher:
+                yield from _taken(task.progressively(seconds, watcher))
+
+        return pictures()
+
+    def _task(
+        self,
+        spp: Optional[int],
+        *,
+        size: Optional[Tuple[int, int]] = None,
+        seed: Optional[int] = None,
+        device: str = "auto",
+        layers: Iterable[str] = (),
+        time_limit: Optional[float] = None,
+        target_error: Optional[float] = None,
+        adaptive: bool = False,
+        target_interval: Optional[float] = None,
+        confidence: Optional[float] = None,
+        interval_of: Optional[str] = None,
+        interval_by: Optional[str] = None,
+        first_sample: int = 0,
+        crop: Optional[Tuple[int, int, int, int]] = None,
+        **settings: SettingValue,
+    ) -> _native.Task:
+        """A render with these keywords, of which the names of settings are checked."""
         names = [layers] if isinstance(layers, str) else list(layers)
         intervals = (target_interval, confidence, interval_of, interval_by)
         for name in settings:
@@ -233,21 +372,43 @@ class Scene:
                 raise TypeError(f"render() has no keyword {name!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
         named: Dict[str, Optional[SettingValue]] = {"spp": spp, "seed": seed, **settings}
         assigned = [(name, setting_text(value)) for name, value in named.items() if value is not None]
-        if not (progress is None or isinstance(progress, bool) or callable(progress)):
-            raise TypeError("progress: a function of two numbers, or True for a bar")
         part = (first_sample, crop)
-        bar = Bar() if progress is True else None
-        watcher = bar or (progress if callable(progress) else None)
-        try:
-            made = self._native.render(size, device, names, time_limit, target_error, adaptive, intervals, part, assigned, watcher)
-        finally:
-            if bar:
-                bar.close()
-        return Picture(made.picture, {name: np.asarray(layer) for name, layer in made.layers.items()}, json.loads(made.stats))
+        return self._native.task(size, device, names, time_limit, target_error, adaptive, intervals, part, assigned)
 
     def __repr__(self) -> str:
         columns, rows = self.size
         return f"<gpt_pathtracer.Scene {self.name}, {columns}x{rows}, {self.spp} spp>"
+
+
+#: Seconds between two pictures that a notebook shows.
+_LIVE_SECONDS = 0.5
+
+
+@contextlib.contextmanager
+def _watching(progress: Progress) -> Iterator[Optional[Callable[[int, int], object]]]:
+    """The function that is told how far a render is; a bar is closed in the end."""
+    if not (progress is None or isinstance(progress, bool) or callable(progress)):
+        raise TypeError("progress: a function of two numbers, or True for a bar")
+    if progress is not True:
+        yield progress or None
+        return
+    bar = Bar()
+    try:
+        yield bar
+    finally:
+        bar.close()
+
+
+def _taken(pictures: _native.Pictures) -> Iterator[Picture]:
+    """Pictures in the making; who leaves early ends the render."""
+    try:
+        while True:
+            taken = pictures.next()
+            if taken is None:
+                return
+            yield Picture._of(taken[0])
+    finally:
+        pictures.close()
 
 
 @dataclass(frozen=True)
@@ -320,6 +481,27 @@ def compare(picture: Union[Picture, Pixels, Path], reference: Union[Picture, Pix
     return Comparison(mse, relmse, mae, no_number if psnr is None else psnr, details["largest"]["difference"], details)
 
 
+def regroup(picture: Union[Picture, Path], weights: Mapping[str, Weight]) -> Picture:
+    """A finished picture with the light of its groups weighed anew, as `gpt regroup` does: a picture that was rendered with `layers=["groups"]`, or an
+    EXR file of `gpt render --aov groups`.
+
+    A weight is a factor (2, 0.5, 0 for none), an sRGB colour ("#ffddaa"), which multiplies by its components in linear light, or both ((2, "#ffddaa")).
+    Groups without a weight stay as they are. Layers that say nothing of light stay too; those of the light as it was are left out, and
+    `stats["left_out"]` names them.
+    """
+
+    def text(weight: Weight) -> str:
+        parts = [weight] if isinstance(weight, (str, float, int)) else weight
+        return ",".join(part if isinstance(part, str) else repr(float(part)) for part in parts)
+
+    texts = [f"{group}={text(weight)}" for group, weight in weights.items()]
+    if not isinstance(picture, Picture):
+        return Picture._of(_native.regroup_file(os.fspath(picture), texts))
+    rows, columns, _ = picture.pixels.shape
+    channels = [(name, numbers.tobytes()) for name, numbers, _ in picture._numbers()]
+    return Picture._of(_native.regroup_channels((columns, rows), channels, picture._layer_list, picture._notes, texts))
+
+
 def verify(
     scene: Union[Scene, Path], *, size: Optional[Tuple[int, int]] = None, spp: Optional[int] = None, device: str = "gpu"
 ) -> Verdict:
@@ -376,3 +558,7 @@ def measure(
 def builtin_scenes() -> List[str]:
     """Names of the scenes that are part of the package."""
     return _native.builtin_scenes()
+
+
+# The module needs scenes and pictures.
+from . import referee  # noqa: E402

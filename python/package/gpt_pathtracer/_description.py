@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Mapping, Sequence, Tuple, Union
 
@@ -14,6 +16,15 @@ from . import _native
 _COLUMNS: Dict[str, Tuple[str, ...]] = {"positions": ("x", "y", "z"), "normals": ("nx", "ny", "nz"), "uvs": ("u", "v")}
 #: Keys of a mesh that are written there.
 _OF_MESH = (*_COLUMNS, "faces")
+
+
+@dataclass(frozen=True)
+class FileContent:
+    """The content of a file, in place of its path in a dictionary that is a scene."""
+
+    #: The ending says what it is.
+    name: str
+    content: bytes = field(repr=False)
 
 
 def text_of(description: Mapping[str, Any], folder: Path) -> str:
@@ -36,6 +47,10 @@ class _Files:
 
     def replaced(self, value: Any, place: str) -> Any:
         """The value with names of files in place of arrays that files hold."""
+        if isinstance(value, FileContent):
+            path = self._next(os.path.splitext(value.name)[1].lstrip(".") or "bin")
+            path.write_bytes(value.content)
+            return str(path)
         if isinstance(value, Mapping):
             kept = dict(value)
             if isinstance(kept.get("file"), np.ndarray):
@@ -79,7 +94,7 @@ class _Files:
             raise _native.SceneError(f"{place}: the picture has numbers that are not finite")
         path = self._next("exr")
         rows, columns, _ = numbers.shape
-        _native.Picture.from_bytes(columns, rows, np.ascontiguousarray(numbers).tobytes()).save(str(path))
+        _native.Picture.from_bytes(columns, rows, np.ascontiguousarray(numbers).tobytes()).save(str(path), [], "", [])
         return str(path)
 
     def _mesh(self, found: Mapping[str, Any], place: str) -> str:
@@ -115,6 +130,34 @@ class _Files:
         path = self._next("ply")
         path.write_bytes(header.encode() + np.hstack(columns).astype("<f4").tobytes() + corners.tobytes())
         return str(path)
+
+
+def dictionary_of(tables: Any, contents: Mapping[str, bytes]) -> Any:
+    """The tables with arrays and contents in place of the names of files that are in memory."""
+    if isinstance(tables, dict):
+        content = contents.get(tables["file"]) if isinstance(tables.get("file"), str) else None
+        # The materials of several-coloured faces are told apart in the file.
+        if content is not None and tables["file"].endswith(".ply") and "materials" not in tables:
+            return {**{key: value for key, value in tables.items() if key != "file"}, **_arrays_of_mesh(content)}
+        return {key: dictionary_of(value, contents) for key, value in tables.items()}
+    if isinstance(tables, list):
+        return [dictionary_of(value, contents) for value in tables]
+    if isinstance(tables, str) and tables in contents:
+        return FileContent(tables.rpartition("/")[2], contents[tables])
+    return tables
+
+
+def _arrays_of_mesh(content: bytes) -> Dict[str, np.ndarray[Any, Any]]:
+    """The arrays of a PLY file as scene files have them beside them: vertices of floats, then triangles."""
+    header, _, rest = content.partition(b"end_header\n")
+    lines = [line.split() for line in header.decode("ascii").splitlines()]
+    count, faces = (next(int(line[2]) for line in lines if line[:2] == ["element", name]) for name in ("vertex", "face"))
+    names = [line[2] for line in lines if line[:2] == ["property", "float"]]
+    vertices = np.frombuffer(rest, "<f4", count * len(names)).reshape(count, len(names))
+    corners = np.frombuffer(rest, [("count", "u1"), ("corners", "<u4", 3)], faces, vertices.nbytes)["corners"]
+    columns = {**_COLUMNS, "second_uvs": ("u1", "v1")}
+    arrays = {key: vertices[:, [names.index(name) for name in of_key]] for key, of_key in columns.items() if of_key[0] in names}
+    return {**arrays, "faces": corners}
 
 
 def _decoded(numbers: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import Any, Optional, TextIO
+from typing import Any, Optional, TextIO, TypeVar
+
+Shown = TypeVar("Shown")
 
 #: Columns of a bar.
 _COLUMNS = 30
@@ -40,6 +42,24 @@ class Bar:
         filled = int(_COLUMNS * share)
         left = f", {seconds / share - seconds:.0f} s left" if 0 < share < 1 else ""
         return f"{share:4.0%} [{'#' * filled}{'.' * (_COLUMNS - filled)}] {seconds:.0f} s{left}   "
+
+
+class Canvas:
+    """An output of a notebook that shows one picture after the other in one place."""
+
+    def __init__(self, handle: Any) -> None:
+        self._handle = handle
+
+    @staticmethod
+    def of_notebook() -> Optional[Canvas]:
+        """One where a notebook runs; None elsewhere."""
+        handle = _notebook()
+        return None if handle is None else Canvas(handle)
+
+    def show(self, picture: Shown) -> Shown:
+        """Shows the picture in place of the one before, and gives it back."""
+        self._handle.update(picture)
+        return picture
 
 
 def _notebook() -> Any:

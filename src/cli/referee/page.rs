@@ -35,7 +35,7 @@ fn section<'a>(report: &'a TestReport, map: Option<&'a FlipMap>) -> Section<'a> 
     let mut facts = vec![report.about.to_owned(), format!("Decides: {}", report.decides)];
     facts.extend(Some(report.detail()).filter(|detail| !detail.is_empty()));
     facts.extend(report.looks_like.iter().skip(1).map(|cause| format!("It also looks like {cause}")));
-    let findings = report.difference.iter().map(|difference| (difference.region, difference.sentence(report.at_least))).collect();
+    let findings = report.difference.iter().map(|difference| (difference.region, difference.sentence().to_owned())).collect();
     Section {
         title: report.name.to_owned(),
         verdict: report.verdict.words().to_owned(),

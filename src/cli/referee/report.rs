@@ -2,7 +2,8 @@
 
 use gpt::compare::ImageComparison;
 use gpt::output::Image;
-use gpt::referee::{Difference, DifferenceOf, Judgement, Outcome, Test};
+use gpt::referee::judge::percent;
+use gpt::referee::{Difference, Judgement, Outcome, Test};
 use serde::Serialize;
 
 /// The verdict on one test.
@@ -71,6 +72,8 @@ pub struct DifferenceReport {
     /// In radiance.
     pub at_least: f64,
     pub p_value: f64,
+    #[serde(skip)]
+    sentence: String,
 }
 
 /// Pictures for a page.
@@ -111,15 +114,13 @@ impl TestReport {
         self.at_least = judgement.difference.as_ref().and_then(Difference::at_least_share);
         self.difference = judgement.difference.as_ref().map(|difference| DifferenceReport {
             region: difference.region,
-            channel: ["red", "green", "blue"][difference.channel],
-            of: match difference.of {
-                DifferenceOf::Means => "means",
-                DifferenceOf::Pixels => "pixels",
-            },
+            channel: difference.channel_name(),
+            of: difference.of.name(),
             truth: difference.truth,
             found: difference.found,
             at_least: difference.at_least,
             p_value: difference.p_value,
+            sentence: difference.sentence(),
         });
     }
 
@@ -143,7 +144,7 @@ impl TestReport {
             _ => {}
         }
         if let Some(difference) = &self.difference {
-            parts.push(difference.sentence(self.at_least));
+            parts.push(difference.sentence().to_owned());
         }
         if let Some(cause) = self.looks_like.first() {
             parts.push(format!("looks like {cause}"));
@@ -154,29 +155,9 @@ impl TestReport {
 }
 
 impl DifferenceReport {
-    pub fn sentence(&self, share: Option<f64>) -> String {
-        let gpt::compare::Region { x, y, width, height } = self.region;
-        let by = share.map_or_else(|| format!("{:.3e}", self.at_least), percent);
-        if self.of == "pixels" {
-            return format!("pixels are off by at least {by} of the mean ({}, root mean square); means are right", self.channel);
-        }
-        format!(
-            "off by at least {by} ({}, {width}×{height} pixels at {x}, {y}: {:.5e}, and {:.5e} is true)",
-            self.channel, self.found, self.truth
-        )
+    pub fn sentence(&self) -> &str {
+        &self.sentence
     }
-}
-
-fn percent(share: f64) -> String {
-    let value = 100.0 * share;
-    let digits = if value >= 10.0 {
-        0
-    } else if value >= 1.0 {
-        1
-    } else {
-        2
-    };
-    format!("{value:.digits$} %")
 }
 
 /// How many tests have each verdict, in words.

@@ -6,9 +6,8 @@ use std::time::Instant;
 
 use gpt::compare::sidak;
 use gpt::output::{AtomicFile, Image};
-use gpt::referee::causes::{Suspect, explained_by, general_suspects, scaled_suspect};
-use gpt::referee::test::VariantPicture;
-use gpt::referee::{Seeds, Test, TruthPicture, judge, replay, suite};
+use gpt::referee::causes::causes_of;
+use gpt::referee::{Seeds, Test, judge, suite};
 use serde::Serialize;
 
 use super::arguments::RunArguments;
@@ -21,8 +20,6 @@ use crate::cli::{interrupt, outputs, terminal};
 
 /// Tests of each family that `--quick` takes.
 const QUICK_TESTS: usize = 3;
-/// Samples of a picture of a mistake, in each of its parts.
-const SAMPLES_OF_MISTAKE: u32 = 16;
 
 /// The JSON that `--json` prints. Its keys stay as they are; new ones may be added.
 #[derive(Serialize)]
@@ -220,7 +217,8 @@ fn judge_pictures(
     let judgement = judge(&truth, width, &views, seeds, level);
     report.judged(&judgement);
     if report.verdict == Verdict::Differs {
-        report.looks_like = causes(test, &truth, (width, &views), (seeds, level))?;
+        let causes = causes_of(test, &truth, (width, &views), (seeds, level));
+        report.looks_like = causes.map_err(|error| Failure::Other(error.to_string()))?;
     }
     if let Some(tiles) = judgement.compared {
         let height = truth.height;
@@ -228,29 +226,4 @@ fn judge_pictures(
         report.shown = Some(Shown { truth: image(truth.mean), found: image(pictures[0].pixels.clone()), tiles });
     }
     Ok(())
-}
-
-/// Mistakes of the test first, then those that any test may show.
-fn causes(
-    test: &Test,
-    truth: &TruthPicture,
-    (width, views): (u32, &[&[[f32; 3]]]),
-    (seeds, level): (Seeds, f64),
-) -> Result<Vec<String>, Failure> {
-    let mut suspects = Vec::new();
-    for variant in &test.variants {
-        let picture = match &variant.picture {
-            VariantPicture::Formula(formula) => formula.picture(test.size()),
-            VariantPicture::Scene(scene) => replay::by_reference(test.name, scene, &test.files, SAMPLES_OF_MISTAKE)
-                .map_err(|error| Failure::Other(error.to_string()))?,
-        };
-        suspects.push(Suspect { cause: variant.cause.to_owned(), picture });
-    }
-    suspects.extend(general_suspects(truth));
-    let found: Vec<String> = explained_by(&suspects, width, views, seeds, level).into_iter().map(str::to_owned).collect();
-    if !found.is_empty() {
-        return Ok(found);
-    }
-    let scaled: Vec<Suspect> = scaled_suspect(truth, views[0]).into_iter().collect();
-    Ok(explained_by(&scaled, width, views, seeds, level).into_iter().map(str::to_owned).collect())
 }

@@ -7,6 +7,7 @@ mod environments;
 mod extensions;
 mod layers;
 mod lights;
+mod links;
 mod media;
 mod reflection;
 mod shadows;
@@ -19,7 +20,7 @@ mod transport;
 use super::test::Test;
 
 /// Version of the suite: it grows where a test is added or its truth changes.
-pub const VERSION: &str = "1.3";
+pub const VERSION: &str = "1.4";
 
 /// The licence under which scenes and truths may be used.
 pub const LICENCE: &str = "CC0-1.0";
@@ -29,6 +30,7 @@ pub fn all_tests() -> Vec<Test> {
     [
         lights::tests(),
         shadows::tests(),
+        links::tests(),
         cameras::tests(),
         shapes::tests(),
         textures::tests(),
