@@ -17,8 +17,6 @@ import datetime
 import json
 import math
 import os
-import platform
-import subprocess
 import sys
 import tempfile
 import time
@@ -28,6 +26,7 @@ from pathlib import Path
 import mitsuba as mi
 import numpy as np
 
+import circumstances
 import convergence
 import scenes
 import table
@@ -277,23 +276,11 @@ def ratios(peer, way, ready, levels):
     return asdict(ratio) | {"processor": float(np.median(cpu[0] / cpu[1])), "with_start_up": float(whole[0] / whole[1])}
 
 
-def machine():
-    model = [line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines() if line.startswith("model name")]
-    return {"processor": model[0] if model else platform.processor(), "cores": os.cpu_count(), "system": platform.platform()}
-
-
-def device(options):
-    """Name and driver of the device that gpt renders on."""
-    listed = json.loads(subprocess.run([options.gpt, "devices", "--json"], check=True, capture_output=True, text=True).stdout)
-    chosen = [found for found in listed if found["chosen_by_auto"]] if options.device == "auto" else []
-    return {"name": chosen[0]["name"], "driver": chosen[0]["driver"]} if chosen else {"name": options.device}
-
-
 def main():
     mi.set_variant("scalar_rgb")
     options = arguments()
     start = time.perf_counter()
-    report = {"date": datetime.date.today().isoformat(), "machine": machine(), "device": device(options), "seconds": options.seconds, "seeds": options.seeds, "absent": {}, "scenes": {}}
+    report = {"date": datetime.date.today().isoformat(), "machine": circumstances.machine(), "device": circumstances.device(options.gpt, options.device), "seconds": options.seconds, "seeds": options.seeds, "absent": {}, "scenes": {}}
     with tempfile.TemporaryDirectory() as folder:
         running = processes(options, folder)
         for key, process in list(running.items()):

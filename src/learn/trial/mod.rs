@@ -238,24 +238,16 @@ fn best_way(trial: &mut TrialRun<'_>, simple: Tried, open: Open, beside: (&Trial
     if open.light_sampling {
         best = trial.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
     }
-    if !open.light_samples {
-        return best;
-    }
-    // More samples at one surface or at two: the better of both is doubled further.
-    let (mut in_vain, mut depths) = (0, 1..=most_depth(&trial.settings));
-    for count in [2, 4, 8, MOST_LIGHT_SAMPLES] {
-        let before = best;
-        for depth in depths.clone() {
-            best = trial.better(best, Tried { samples: [count, depth], ..best }, beside);
-        }
-        if best == before {
-            in_vain += 1;
-        } else {
-            (in_vain, depths) = (0, best.samples[1]..=best.samples[1]);
-        }
-        // A way that gains makes a sample of the picture longer, and so affords trying the next one.
-        if in_vain == MOST_IN_VAIN || (in_vain > 0 && trial.spent > trial.most_work) {
-            break;
+    for depth in (1..=most_depth(&trial.settings)).filter(|_| open.light_samples) {
+        let (mut in_vain, fewest) = (0, best.samples[0]);
+        for count in [2, 4, 8, MOST_LIGHT_SAMPLES].into_iter().filter(|&count| count >= fewest) {
+            let better = trial.better(best, Tried { samples: [count, depth], ..best }, beside);
+            in_vain = if better == best { in_vain + 1 } else { 0 };
+            best = better;
+            // A way that gains makes a sample of the picture longer, and so affords trying the next one.
+            if in_vain == MOST_IN_VAIN || (in_vain > 0 && trial.spent > trial.most_work) {
+                break;
+            }
         }
     }
     best
