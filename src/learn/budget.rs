@@ -17,14 +17,14 @@ const SHARE: f64 = 0.2;
 const SHARE_OF_LIGHTS: f64 = 0.5;
 const PATHS_OF_LIGHTS: f64 = 65_536.0;
 /// Paths of the reference in whose time a software device follows one path, where geometry is code, and where it is in a hierarchy; and in
-/// whose time a graphics card does (docs/performance.md, "How many samples a second?" and "How fast is a graphics card?").
+/// whose time a graphics card does (docs/performance.md).
 const PATHS_AS_CODE: f64 = 6.0;
 const PATHS_IN_A_HIERARCHY: f64 = 2.0;
 const PATHS_OF_A_CARD: f64 = 100.0;
 /// Paths in whose time the reference's hierarchy takes in a triangle.
 const PATHS_OF_TRIANGLE: f64 = 0.25;
 /// Seconds of a time limit that pass before the first sample, without learning: the driver, and for each triangle reading, packing and the
-/// device's hierarchy (two cores; docs/performance.md, "What does the CPU's part take?").
+/// device's hierarchy (two cores, where nothing else runs).
 const SECONDS_OF_SET_UP: f64 = 0.15;
 const SECONDS_OF_TRIANGLE: f64 = 1.7e-6;
 /// Seconds in which the hierarchy that learning needs takes in a triangle.
@@ -33,7 +33,8 @@ const SECONDS_OF_HIERARCHY: f64 = 6e-7;
 /// Counted work of the cheapest paths: of two vertices that meet next to nothing.
 const LEAST_WORK_OF_PATH: f64 = 128.0;
 
-/// Paths below which nothing is learned: even the least that can be found out takes the time of as many.
+/// Paths below which nothing is learned: a trial run of the fewest pixels takes the time of as many, and without one cells of few lights would be
+/// learned for nothing.
 pub const LEAST_BUDGET: f64 = 16_384.0;
 
 /// Why nothing is tried, or learned, in short renders.

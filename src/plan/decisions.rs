@@ -37,7 +37,7 @@ pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (Geometry
 
 /// Features of a scene up to which the kernel that traces whole paths is the faster one on hardware. Larger kernels hold more registers, and their
 /// lanes are further apart. Of 16 scenes on one card, those with fewer took 0.3 to 1.04 of the wavefront's time, but for two with four light samples,
-/// and those with more 1.25 to 3.7 times (docs/performance.md).
+/// and those with more 1.25 to 3.7 times (docs/notes/2026-11-26-first-graphics-card.md).
 const MOST_FUSED_FEATURES: usize = 34;
 /// Light samples at a surface from which on queues of shadow rays are the faster way through a hierarchy on hardware, and the paths in flight that this
 /// takes: with fewer, queues run dry.

@@ -218,3 +218,17 @@ fn only_lamps_seen_under_large_angles_are_drawn_by_solid_angle() {
     // Each of many triangles is seen under a small angle.
     assert_eq!(settled(&floor_under_a_lamp(Lamp::Mesh(24), 3.0, 0.6)).light_sampling, LightSampling::Auto);
 }
+
+/// Nothing is made ready where nothing is open: where no lamp has straight edges, how its points are drawn is not.
+#[test]
+fn a_scene_without_open_settings_is_not_made_ready() {
+    let made_ready = |name: &str| {
+        let mut scene = built_in(name);
+        scene.render.spp = 1 << 16;
+        (scene.render.light_samples, scene.render.light_choice) = (1.into(), LightChoice::Power);
+        scene.render.guiding = Guiding::Off;
+        settle(&scene, Effort::default()).expect("the reference can render the scene").integrator.is_some()
+    };
+    // Lamps of the one are spheres, that of the other is a rectangle.
+    assert!(!made_ready("veach-mis") && made_ready("cornell"));
+}

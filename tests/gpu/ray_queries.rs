@@ -12,7 +12,7 @@ use gpt::load::load_toml_str;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::limits::RayQueryLimits;
-use gpt::plan::{DeviceLimits, Plan, PlanError, PlanOptions, RayQueryDefault, StageMode, TraversalChoice};
+use gpt::plan::{BUILD_HAS_RAY_QUERIES, DeviceLimits, Plan, PlanError, PlanOptions, RayQueryDefault, StageMode, TraversalChoice};
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::Scene;
 
@@ -224,10 +224,11 @@ fn what_they_cannot_do_is_refused_with_the_reason() {
     let instead = "; without `--traversal ray-query` it renders all the same";
     let everything = everything();
     assert!(plan(&everything, &with_ray_queries(1 << 24)).is_ok());
-    assert_eq!(
-        refusal(&everything, &DeviceLimits::default()),
-        format!("the device has no ray queries, or its driver does not offer them{instead}")
-    );
+    let what = match BUILD_HAS_RAY_QUERIES {
+        true => "the device has no ray queries, or its driver does not offer them",
+        false => "this gpt is built without ray queries, which `cargo build --release --features ray-query` has",
+    };
+    assert_eq!(refusal(&everything, &DeviceLimits::default()), format!("{what}{instead}"));
     assert_eq!(
         refusal(&small("motion-blur", [8, 8], 1), &with_ray_queries(1 << 24)),
         format!("its shapes move, and acceleration structures hold a scene at rest{instead}")

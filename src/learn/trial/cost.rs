@@ -21,7 +21,7 @@ pub struct Costs {
     pub of_triangle: f64,
 }
 
-/// Costs where geometry is code (docs/strategies.md; guides: docs/performance.md). That of a tree is taken
+/// Costs where geometry is code (docs/strategies.md; guides: docs/notes/2026-11-28-when-guiding-pays.md). That of a tree is taken
 /// from [`TRAVERSED`].
 const SIMPLE: Costs =
     Costs { guide: 1.5, light_sample: 1.0, tree_of_lights: 1.4, cells_of_lights: 0.8, of_rectangle: 0.75, of_triangle: 2.2 };

@@ -107,7 +107,7 @@ impl Open {
 /// # Errors
 /// [`RenderError`] for a scene that the reference cannot render.
 pub fn choose(scene: &Scene, budget: Budget) -> Result<Chosen<'_>, RenderError> {
-    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene, budget, affordable_pixels(scene, budget, 0.0).is_some())?;
+    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene, budget)?;
     let mut chosen = match scene {
         Cow::Borrowed(scene) => choose_the_rest(scene, budget, integrator, is_undecided)?,
         Cow::Owned(scene) => {
@@ -292,7 +292,17 @@ impl<'a> TrialRun<'a> {
         let is_simple = integrator.primitive_count() <= FEW_PRIMITIVES;
         let costliest_outline = integrator.costliest_outline();
         let settings = scene.render.clone();
-        Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0, spent: 0, most_work: MOST_WORK }
+        Self {
+            integrator,
+            scene,
+            settings,
+            is_simple,
+            costliest_outline,
+            pixels,
+            shadow_rays: 0.0,
+            spent: 0,
+            most_work: MOST_WORK,
+        }
     }
 
     /// Says that a loss is less than another by more than the noise of the trial run.
@@ -361,5 +371,32 @@ impl<'a> TrialRun<'a> {
             LightStrategy::Cells => costs.cells_of_lights,
         };
         costs.light_sample + of_choice + of_point
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::budget::LEAST_BUDGET;
+    use super::*;
+    use crate::load;
+
+    /// Cells of few lights are learned where the budget is the least one or more; a trial run has to be affordable there.
+    #[test]
+    fn the_least_budget_pays_for_the_shortest_trial_run() {
+        let scene = load::load(Some("cornell")).expect("a built-in scene");
+        assert!(tried_pixels(&scene, LEAST_BUDGET / USUAL_WAYS).is_some());
+        assert!(tried_pixels(&scene, 0.99 * LEAST_BUDGET / USUAL_WAYS).is_none());
+    }
+
+    /// Of few pixels the standard error is itself a guess, and a gain has to be twice as large beside it.
+    #[test]
+    fn few_pixels_need_a_larger_gain() {
+        let scene = load::load(Some("cornell")).expect("a built-in scene");
+        let with = |pixels: u32, value: f64, standard_error: f64| {
+            let integrator = Integrator::new(&scene).expect("the reference can render the scene");
+            TrialRun::new(&scene, integrator, pixels).is_gain(Loss { value, standard_error }, 1.0)
+        };
+        assert!(with(MANY_PIXELS, 0.85, 0.1) && !with(MANY_PIXELS - 1, 0.85, 0.1));
+        assert!(with(MANY_PIXELS - 1, 0.75, 0.1) && !with(MANY_PIXELS, 0.95, 0.01));
     }
 }
