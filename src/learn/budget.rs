@@ -33,8 +33,7 @@ const SECONDS_OF_HIERARCHY: f64 = 6e-7;
 /// Counted work of the cheapest paths: of two vertices that meet next to nothing.
 const LEAST_WORK_OF_PATH: f64 = 128.0;
 
-/// Paths below which nothing is learned: a trial run of the fewest pixels takes the time of as many, and without one cells of few lights would be
-/// learned for nothing.
+/// Paths below which nothing is learned: a trial run of the fewest pixels takes the time of as many.
 pub const LEAST_BUDGET: f64 = 16_384.0;
 
 /// Why nothing is tried, or learned, in short renders.

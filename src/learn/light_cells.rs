@@ -83,14 +83,17 @@ pub struct LightsSettled<'a> {
 /// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and
 /// learns what that needs. Of few lights it learns what a trial run compares with a choice by power.
 ///
+/// Without a trial run (`may_be_tried`), cells of few lights would be learned for nothing.
+///
 /// # Errors
 /// [`RenderError`] for a scene that the reference cannot render.
-pub fn settle(scene: &Scene, budget: Budget) -> Result<LightsSettled<'_>, RenderError> {
+pub fn settle(scene: &Scene, budget: Budget, may_be_tried: bool) -> Result<LightsSettled<'_>, RenderError> {
     let is_open = scene.render.light_choice == LightChoice::Auto;
     let with = |light_choice| Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
     let as_it_is = LightsSettled { scene: Cow::Borrowed(scene), integrator: None, because: None, is_undecided: false };
     let wanted = is_open || scene.render.light_choice == LightChoice::Cells;
-    if !wanted || !is_sampled(scene) || most_lights(scene) < 2 || (is_open && !is_worth_learning(scene, budget)) {
+    let is_in_vain = || is_open && !may_be_tried && most_lights(scene) < MANY_LIGHTS;
+    if !wanted || is_in_vain() || !is_sampled(scene) || most_lights(scene) < 2 || (is_open && !is_worth_learning(scene, budget)) {
         return Ok(as_it_is);
     }
     let by_cells = if is_open { Cow::Owned(with(LightChoice::Cells)) } else { Cow::Borrowed(scene) };

@@ -107,7 +107,8 @@ impl Open {
 /// # Errors
 /// [`RenderError`] for a scene that the reference cannot render.
 pub fn choose(scene: &Scene, budget: Budget) -> Result<Chosen<'_>, RenderError> {
-    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene, budget)?;
+    let LightsSettled { scene, integrator, because, is_undecided } =
+        light_cells::settle(scene, budget, affordable_pixels(scene, budget, 0.0).is_some())?;
     let mut chosen = match scene {
         Cow::Borrowed(scene) => choose_the_rest(scene, budget, integrator, is_undecided)?,
         Cow::Owned(scene) => {
@@ -380,12 +381,16 @@ mod tests {
     use super::*;
     use crate::load;
 
-    /// Cells of few lights are learned where the budget is the least one or more; a trial run has to be affordable there.
+    /// Under an environment map the least budget pays for a trial run; elsewhere it takes four times as much.
     #[test]
     fn the_least_budget_pays_for_the_shortest_trial_run() {
-        let scene = load::load(Some("cornell")).expect("a built-in scene");
-        assert!(tried_pixels(&scene, LEAST_BUDGET / USUAL_WAYS).is_some());
-        assert!(tried_pixels(&scene, 0.99 * LEAST_BUDGET / USUAL_WAYS).is_none());
+        let affordable = |name: &str, paths: f64| {
+            let scene = load::load(Some(name)).expect("a built-in scene");
+            tried_pixels(&scene, paths / USUAL_WAYS).is_some()
+        };
+        for (name, least) in [("terrace", LEAST_BUDGET), ("cornell", 4.0 * LEAST_BUDGET)] {
+            assert!(affordable(name, least) && !affordable(name, 0.99 * least), "{name}");
+        }
     }
 
     /// Of few pixels the standard error is itself a guess, and a gain has to be twice as large beside it.

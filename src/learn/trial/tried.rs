@@ -15,8 +15,10 @@ use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// Pixels that are tried at least: fewer tell too little. Of fewer than [`MANY_PIXELS`] a gain must be larger beside the noise.
-const FEWEST_PIXELS: u64 = 1 << 5;
+/// Pixels that are tried at least: fewer tell too little. Under an environment map, where there is most to gain, few are better than none. Of fewer
+/// than [`MANY_PIXELS`] a gain must be larger beside the noise.
+const FEWEST_PIXELS: u64 = 1 << 7;
+const FEWEST_UNDER_A_MAP: u64 = 1 << 5;
 pub const MANY_PIXELS: u32 = 1 << 6;
 /// One of so many pixels is tried, within these numbers, where the render is long enough.
 const ONE_OF_PIXELS: u64 = 1 << 10;
@@ -41,7 +43,8 @@ pub fn tried_pixels(scene: &Scene, paths: f64) -> Option<u32> {
     let [fewest, most] = TRIED_PIXELS;
     let most = (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most);
     let affordable = (paths / TrialResult::paths(1)) as u64;
-    (affordable >= FEWEST_PIXELS).then_some(affordable.min(most) as u32)
+    let fewest = if scene.has_environment_map() { FEWEST_UNDER_A_MAP } else { FEWEST_PIXELS };
+    (affordable >= fewest).then_some(affordable.min(most) as u32)
 }
 
 /// The result of one way of drawing from lights.

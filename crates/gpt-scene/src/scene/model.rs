@@ -108,9 +108,15 @@ impl Scene {
             .map(|wanted| self.materials_that(wanted));
         let shapes = || self.shapes.iter().chain(self.groups.iter().flat_map(|group| &group.shapes));
         let is_shown = |which: &[bool]| shapes().any(|shape| shape.materials().any(|id| which[id]));
+        is_shown(&gathering) && (is_shown(&emitting) || self.has_environment_map())
+    }
+
+    /// Says that a picture around the scene gives light.
+    #[doc(hidden)]
+    pub fn has_environment_map(&self) -> bool {
         let is_map =
             |light: &Light| matches!(light, Light::Environment(Environment { radiance: EnvironmentRadiance::Map(_), .. }));
-        is_shown(&gathering) && (is_shown(&emitting) || self.lights.iter().any(is_map))
+        self.lights.iter().any(is_map)
     }
 
     /// Takes out what fills the space: only surfaces are left.
