@@ -145,7 +145,7 @@ mod tests {
     fn learning_takes_its_share_of_the_render() {
         let cornell = scene("cornell", [256, 256], 60);
         let paths = |effort| Budget::new(&cornell, effort).paths(1000.0);
-        let share = |pace: f64| 0.2 * 256.0 * 256.0 * 60.0 / pace;
+        let share = |pace: f64| 0.2 * 256.0 * 256.0 * 60.0 / pace - PATHS_OF_TRIANGLE * triangle_count(&cornell) as f64;
         // The boxes of the Cornell box are twelve triangles' worth of rectangles: geometry that is code.
         assert!((paths(Effort::default()) - share(6.0)).abs() < 1.0, "{}", paths(Effort::default()));
         let on_card = Effort { pace: Pace::Card, ..Effort::default() };
@@ -157,8 +157,8 @@ mod tests {
         assert!((limited(1000) - ((1.0 - of_set_up) * of_a_second).min(share(6.0))).abs() < 20.0);
         assert!((limited(250) - (0.25 - of_set_up) * of_a_second).abs() < 20.0);
         assert_eq!(limited(100), 0.0);
-        // 100,000 triangles leave nothing of a second, and most of ten seconds.
-        assert_eq!([1.0, 10.0].map(|limit| (10.0 * seconds(limit, 1e5)).round()), [0.0, 18.0]);
+        // 100,000 triangles leave a part of the fifth of a second, most of that of ten seconds, and nothing of a third of one.
+        assert_eq!([0.33, 1.0, 10.0].map(|limit| (100.0 * seconds(limit, 1e5)).round()), [0.0, 8.0, 188.0]);
     }
 
     #[test]

@@ -393,7 +393,7 @@ mod tests {
         }
     }
 
-    /// Of few pixels the standard error is itself a guess, and a gain has to be twice as large beside it.
+    /// The standard error of few pixels is itself a guess, and a gain has to be twice as large beside it.
     #[test]
     fn few_pixels_need_a_larger_gain() {
         let scene = load::load(Some("cornell")).expect("a built-in scene");
