@@ -50,7 +50,6 @@ def is_gpt(key):
     return key in WAYS.values()
 
 
-
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", help=f"names out of: {', '.join(scenes.ALL)} (default: all)")
