@@ -17,8 +17,6 @@ Run with a Python that has Mitsuba, which reads EXR files. Nothing else may run 
 import argparse
 import datetime
 import json
-import os
-import platform
 import subprocess
 import sys
 import tempfile
@@ -30,7 +28,8 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "benches" / "peers"))
 
-import convergence  # noqa: E402  a neighbour's module
+import circumstances  # noqa: E402  neighbours' modules
+import convergence  # noqa: E402
 
 # Fixed settings: nothing is tried and nothing is chosen by the program. The default is tried beside them, with no option at all.
 FIXED = ["--light-samples", "1", "--guiding", "off"]
@@ -147,8 +146,7 @@ def main():
         return
     mi.set_variant("scalar_rgb")
     version = subprocess.run([options.gpt, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
-    model = [line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines() if line.startswith("model name")]
-    report = {"date": datetime.date.today().isoformat(), "version": version, "machine": {"processor": model[0] if model else platform.processor(), "cores": os.cpu_count()}}
+    report = {"date": datetime.date.today().isoformat(), "version": version, "machine": circumstances.machine()}
     report |= {"size": options.size, "settings": {name: " ".join(SETTINGS[name]) for name in options.settings}, "scenes": {}}
     with tempfile.TemporaryDirectory() as folder:
         for scene in options.scenes or SCENES:
