@@ -8,8 +8,8 @@ use super::unseen::{noise_of_samples, share_of_noise};
 use crate::compare::{ImageComparison, ImageView, Scatter, compare_measured, compare_paired_above};
 
 /// Holds a picture against the golden one. Where it says how its samples vary, that counts; else its noise is what the differences of a tile's
-/// pixels scatter by, by Student's t. A picture of few samples may have found none of the light of a dark tile, and then shows no noise there: what the
-/// golden picture knows of samples ([`noise_of_samples`]) is the least that counts. There is nothing to look at a second time.
+/// pixels scatter by, by Student's t. A picture of few samples may have found none of the light of a dark tile, and then shows no noise there: the noise
+/// that the golden picture knows of samples is the least that counts. There is nothing to look at a second time.
 ///
 /// # Errors
 /// Pictures of different sizes.
