@@ -83,16 +83,16 @@ pub struct LightsSettled<'a> {
 /// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and
 /// learns what that needs. Of few lights it learns what a trial run compares with a choice by power.
 ///
-/// Without a trial run (`may_be_tried`), cells of few lights would be learned for nothing.
+/// Without a trial run, cells of few lights would be learned for nothing. `may_be_tried` says whether there may be one, where a path takes so much work.
 ///
 /// # Errors
 /// [`RenderError`] for a scene that the reference cannot render.
-pub fn settle(scene: &Scene, budget: Budget, may_be_tried: bool) -> Result<LightsSettled<'_>, RenderError> {
+pub fn settle(scene: &Scene, budget: Budget, may_be_tried: impl Fn(f64) -> bool) -> Result<LightsSettled<'_>, RenderError> {
     let is_open = scene.render.light_choice == LightChoice::Auto;
     let with = |light_choice| Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
     let as_it_is = LightsSettled { scene: Cow::Borrowed(scene), integrator: None, because: None, is_undecided: false };
     let wanted = is_open || scene.render.light_choice == LightChoice::Cells;
-    let is_in_vain = || is_open && !may_be_tried && most_lights(scene) < MANY_LIGHTS;
+    let is_in_vain = || is_open && !may_be_tried(0.0) && most_lights(scene) < MANY_LIGHTS;
     if !wanted || is_in_vain() || !is_sampled(scene) || most_lights(scene) < 2 || (is_open && !is_worth_learning(scene, budget)) {
         return Ok(as_it_is);
     }
@@ -100,7 +100,8 @@ pub fn settle(scene: &Scene, budget: Budget, may_be_tried: bool) -> Result<Light
     let mut integrator = Integrator::new(&by_cells)?;
     let (count, groups) = (integrator.lights().local_count(), integrator.lights().group_count());
     let has_few = count < MANY_LIGHTS;
-    if integrator.light_strategy() != LightStrategy::Cells || (is_open && has_few && groups < 2) {
+    let is_in_vain = || is_open && has_few && (groups < 2 || !may_be_tried(work_of_path::of_path(&integrator)));
+    if integrator.light_strategy() != LightStrategy::Cells || is_in_vain() {
         integrator.set_light_choice(scene.render.light_choice);
         return Ok(LightsSettled { integrator: Some(integrator), ..as_it_is });
     }

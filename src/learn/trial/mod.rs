@@ -67,7 +67,7 @@ pub struct Chosen<'a> {
     pub work_of_path: Option<f64>,
 }
 
-/// Pixels that the budget lets a trial run try, where a path takes so much work; None where they are too few.
+/// Pixels that the budget lets a trial run try, where a path takes so much work, or 0 before that is known; None where they are too few.
 fn affordable_pixels(scene: &Scene, budget: Budget, of_path: f64) -> Option<u32> {
     tried_pixels(scene, budget.of_lights(guide_may_pay(scene)).paths(of_path) / USUAL_WAYS)
 }
@@ -108,7 +108,7 @@ impl Open {
 /// [`RenderError`] for a scene that the reference cannot render.
 pub fn choose(scene: &Scene, budget: Budget) -> Result<Chosen<'_>, RenderError> {
     let LightsSettled { scene, integrator, because, is_undecided } =
-        light_cells::settle(scene, budget, affordable_pixels(scene, budget, 0.0).is_some())?;
+        light_cells::settle(scene, budget, |of_path| affordable_pixels(scene, budget, of_path).is_some())?;
     let mut chosen = match scene {
         Cow::Borrowed(scene) => choose_the_rest(scene, budget, integrator, is_undecided)?,
         Cow::Owned(scene) => {
@@ -377,7 +377,7 @@ impl<'a> TrialRun<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::budget::LEAST_BUDGET;
+    use super::super::budget::{Effort, LEAST_BUDGET};
     use super::*;
     use crate::load;
 
@@ -391,6 +391,34 @@ mod tests {
         for (name, least) in [("terrace", LEAST_BUDGET), ("cornell", 4.0 * LEAST_BUDGET)] {
             assert!(affordable(name, least) && !affordable(name, 0.99 * least), "{name}");
         }
+    }
+
+    /// Nothing is made ready for a trial run that the cheapest paths do not let fit into the time.
+    #[test]
+    fn before_a_path_is_judged_it_counts_as_the_cheapest() {
+        let mut scene = load::load(Some("cornell")).expect("a built-in scene");
+        scene.render.spp = 1 << 14;
+        let affordable = |milliseconds: u64, of_path: f64| {
+            let time_limit = Some(std::time::Duration::from_millis(milliseconds));
+            affordable_pixels(&scene, Budget::new(&scene, Effort { time_limit, ..Effort::default() }), of_path)
+        };
+        let limits = (100..4000).step_by(100);
+        assert!(limits.clone().all(|limit| affordable(limit, 0.0) == affordable(limit, 128.0)));
+        // The control: paths that take more do not fit into all of them.
+        assert!(limits.clone().any(|limit| affordable(limit, 0.0).is_some() && affordable(limit, 1000.0).is_none()));
+        assert!(limits.clone().any(|limit| affordable(limit, 1000.0).is_some()));
+    }
+
+    /// Cells of few lights are learned where a path turns out to be cheap enough for a trial run of them, and only there.
+    #[test]
+    fn cells_are_not_learned_where_judged_paths_take_too_much() {
+        let scene = load::load(Some("veach-mis")).expect("a built-in scene");
+        let budget = Budget::new(&scene, Effort::default());
+        let is_undecided = |most_work: f64| {
+            let settled = light_cells::settle(&scene, budget, |of_path| of_path <= most_work).expect("a valid scene");
+            settled.is_undecided
+        };
+        assert!(is_undecided(f64::INFINITY) && !is_undecided(100.0));
     }
 
     /// The standard error of few pixels is itself a guess, and a gain has to be twice as large beside it.
