@@ -5,6 +5,7 @@ mod common;
 
 mod bench;
 mod checkpoints;
+#[cfg(unix)]
 mod continuous_integration;
 mod damage;
 mod denoising;
