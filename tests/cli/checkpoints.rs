@@ -1,7 +1,6 @@
 //! Renders that are asked to stop and go on, and states that nobody goes on from.
 
 use std::process::Child;
-#[cfg(unix)]
 use std::time::{Duration, Instant};
 
 use super::*;

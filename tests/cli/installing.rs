@@ -1,7 +1,6 @@
 //! How the program is packed, and the files of an installation beside it.
 
 use std::collections::BTreeSet;
-#[cfg(unix)]
 use std::path::PathBuf;
 
 use super::*;
