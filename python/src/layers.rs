@@ -14,10 +14,23 @@ use crate::array::{Array, Numbers};
 pub fn arrays(channels: &[LayerChannel], image: &gpt::Image) -> Result<BTreeMap<String, Array>> {
     let mut layers: BTreeMap<&str, Vec<&LayerSource>> = BTreeMap::new();
     for channel in channels {
-        let layer = channel.name.rsplit_once('.').map_or(&*channel.name, |(layer, _)| layer);
-        layers.entry(layer).or_default().push(&channel.source);
+        layers.entry(of_channel(channels, &channel.name)).or_default().push(&channel.source);
     }
     layers.into_iter().map(|(name, sources)| Ok((name.to_owned(), array(&sources, image)?))).collect()
+}
+
+/// Names of these channels, each with its layer's.
+pub fn names(channels: &[LayerChannel]) -> Vec<(String, String)> {
+    channels.iter().map(|channel| (channel.name.to_string(), of_channel(channels, &channel.name).to_owned())).collect()
+}
+
+fn of_channel<'a>(channels: &[LayerChannel], name: &'a str) -> &'a str {
+    layer_of(name, |other| channels.iter().any(|channel| channel.name == other))
+}
+
+/// The layer that a channel belongs to: what stands before the last point of its name, as long as no channel is called that alone.
+pub fn layer_of(channel: &str, is_channel: impl Fn(&str) -> bool) -> &str {
+    channel.rsplit_once('.').map(|(layer, _)| layer).filter(|layer| !is_channel(layer)).unwrap_or(channel)
 }
 
 /// The low or the high end of a pixel's interval.

@@ -7,6 +7,7 @@ mod errors;
 mod layers;
 mod looks;
 mod measuring;
+mod opened;
 mod picture;
 mod pictures;
 mod process;
@@ -35,6 +36,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<pictures::Pictures>()?;
     module.add_class::<referee::RefereeTest>()?;
     module.add_function(wrap_pyfunction!(picture::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(opened::open_with_layers, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::measured, module)?)?;
     module.add_function(wrap_pyfunction!(regrouping::regroup_file, module)?)?;
     module.add_function(wrap_pyfunction!(regrouping::regroup_channels, module)?)?;

@@ -156,6 +156,9 @@ impl Scene {
         if let Some(interval) = &options.interval {
             interval.apply(&mut scene.render);
         }
+        if let Some(message) = options.contradiction(&scene) {
+            return Err(PyValueError::new_err(message));
+        }
         Ok(Task { scene, options, layers })
     }
 

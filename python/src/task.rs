@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 
 use crate::array::Array;
 use crate::errors::raised;
-use crate::layers::arrays;
+use crate::layers::{arrays, names};
 use crate::looks::Looks;
 use crate::picture::Picture;
 use crate::pictures::{Message, Pictures};
@@ -37,16 +37,16 @@ pub struct Task {
 /// A picture, its layers by channel, its light groups, and what the render did, as JSON.
 #[pyclass(frozen, get_all, module = "gpt_pathtracer._native")]
 pub struct Rendered {
-    picture: Py<Picture>,
-    layers: BTreeMap<String, Py<Array>>,
-    /// Names of the layers' channels in EXR files; those of a layer in the order of its array.
-    channels: Vec<String>,
+    pub picture: Py<Picture>,
+    pub layers: BTreeMap<String, Py<Array>>,
+    /// Names of the layers' channels in EXR files, each with its layer's; those of a layer in the order of its array.
+    pub channels: Vec<(String, String)>,
     /// Names of the layers as they were asked for, with commas.
-    layer_list: String,
-    groups: Vec<String>,
+    pub layer_list: String,
+    pub groups: Vec<String>,
     /// Entries of the header of an EXR file.
-    notes: Vec<(String, String)>,
-    stats: String,
+    pub notes: Vec<(String, String)>,
+    pub stats: String,
 }
 
 /// A finished render that Python does not have yet.
@@ -67,7 +67,7 @@ impl Finished {
         Ok(Rendered {
             picture: Py::new(py, Picture(self.image))?,
             layers,
-            channels: self.channels.iter().map(|channel| channel.name.to_string()).collect(),
+            channels: names(&self.channels),
             layer_list: Layer::list(&self.layers),
             groups: self.groups,
             notes: self.notes,
@@ -117,17 +117,20 @@ impl Task {
         finished.map_err(raised)?.rendered(py)
     }
 
-    /// Renders frames of its keyframes one after the other, on a device that stays open.
-    fn frames(&self, frames: Vec<f64>, progress: Option<Py<PyAny>>) -> PyResult<Pictures> {
-        process::check()?;
+    /// Finds what is wrong with frames before any of them is rendered.
+    fn check_frames(&self, frames: Vec<f64>) -> PyResult<()> {
         if self.scene.animation.is_empty() {
             return Err(PyValueError::new_err("the scene has no keyframes, so all of its frames would be the same"));
         }
+        let no_number = frames.into_iter().find(|frame| !frame.is_finite());
+        no_number.map_or(Ok(()), |frame| at(&self.scene, frame).map(drop)).map_err(|error| raised(error.into()))
+    }
+
+    /// Renders frames of its keyframes one after the other, on a device that stays open.
+    fn frames(&self, frames: Vec<f64>, progress: Option<Py<PyAny>>) -> PyResult<Pictures> {
+        process::check()?;
         let task = self.clone();
         Pictures::begin(progress, move |watcher, hands_over| {
-            let at = |scene: &gpt::Scene, frame: f64| {
-                scene.at_frame(frame).map_err(|error| SceneError::in_file(&scene.name, error.to_string()))
-            };
             // All frames draw from lights in the same way, whichever of them are rendered.
             let effort = Effort { pace: Pace::Processor, time_limit: task.options.time_limit };
             let rest = with_lights_settled(&task.scene, effort)?;
@@ -148,11 +151,16 @@ impl Task {
         })
     }
 
+    /// Finds what is wrong with the time between two pictures.
+    #[staticmethod]
+    fn check_seconds(seconds: f64) -> PyResult<()> {
+        duration(seconds).map(drop)
+    }
+
     /// Renders it once, with pictures on the way, each at least so many seconds after the one before.
     fn progressively(&self, seconds: f64, progress: Option<Py<PyAny>>) -> PyResult<Pictures> {
         process::check()?;
-        let every = Duration::try_from_secs_f64(seconds);
-        let every = every.map_err(|_| PyValueError::new_err("seconds: a number that is not below 0"))?;
+        let every = duration(seconds)?;
         let task = self.clone();
         Pictures::begin(progress, move |watcher, hands_over| {
             let mut renderer = Renderer::new(&task.scene, &task.options)?;
@@ -163,6 +171,15 @@ impl Task {
             Ok(())
         })
     }
+}
+
+/// The scene at a frame of its keyframes.
+fn at(scene: &gpt::Scene, frame: f64) -> Result<gpt::Scene, SceneError> {
+    scene.at_frame(frame).map_err(|error| SceneError::in_file(&scene.name, error.to_string()))
+}
+
+fn duration(seconds: f64) -> PyResult<Duration> {
+    Duration::try_from_secs_f64(seconds).map_err(|_| PyValueError::new_err("seconds: a number that is not below 0"))
 }
 
 /// Numbers of frames as people write them: `1-100`, `1-100x5`, `1,5,20-30`.

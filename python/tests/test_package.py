@@ -384,6 +384,13 @@ irradiance = 0.2
             arguments = [PROGRAM, "render", file, "--spp", "32", "--device", "cpu", "-q", "-o", by_program, "--aov", "uv,direct,object_position"]
             subprocess.run(arguments, check=True)
             self.assertEqual(ours.read_bytes(), by_program.read_bytes())
+            # Intervals are in layers and in the header.
+            intervals = {"target_interval": 0.3, "confidence": 0.95, "interval_of": "pixels", "interval_by": "seen"}
+            scene.render(spp=64, device="cpu", layers=["low", "high", "samples"], **intervals).save(ours)
+            options = [argument for name, value in intervals.items() for argument in (f"--{name.replace('_', '-')}", str(value))]
+            subprocess.run([PROGRAM, "render", file, "--spp", "64", "--device", "cpu", "-q", "-o", by_program, "--aov", "low,high,samples", *options], check=False)
+            self.assertEqual(ours.read_bytes(), by_program.read_bytes())
+            self.assertIn(b"gpt:pictureLow", ours.read_bytes())
             # The control: without its layers it is another file.
             scene.render(device="cpu").save(plain)
             self.assertNotEqual(plain.read_bytes(), by_program.read_bytes())
@@ -426,12 +433,28 @@ class Sequences(unittest.TestCase):
         scene = gpt.Scene.from_toml(self.MOVING)
         with self.assertRaisesRegex(ValueError, "ends before it begins"):
             scene.render_frames("5-1")
-        with self.assertRaisesRegex(TypeError, "max_depht"):
-            scene.render_frames("1", max_depht=1)
+        # All of them are raised by the call, before anything is rendered.
+        for name, near in (("max_depht", "max_depth"), ("layer", "layers"), ("devise", "device"), ("progres", "progress"), ("traget_error", "target_error")):
+            with self.assertRaisesRegex(TypeError, rf"render_frames\(\) has no keyword '{name}'; did you mean '{near}'\?"):
+                scene.render_frames("1", **{name: 1})
+        with self.assertRaisesRegex(TypeError, r"render_progressively\(\).*'secnods'; did you mean 'seconds'"):
+            scene.render_progressively(secnods=1)
+        with self.assertRaisesRegex(TypeError, r"render\(\).*'liev'; did you mean 'live'"):
+            scene.render(liev=True)
+        with self.assertRaisesRegex(TypeError, r"'flavour'; help\(Scene.render\)"):
+            scene.render(flavour="mint")
+        with self.assertRaisesRegex(ValueError, "sampler: expected"):
+            scene.render_frames("1", sampler="dice")
+        with self.assertRaisesRegex(ValueError, "target_error is a number above 0"):
+            scene.render_frames("1", spp=64, target_error=-1)
+        with self.assertRaisesRegex(TypeError, "progress"):
+            scene.render_frames("1", progress="yes")
+        with self.assertRaisesRegex(ValueError, "seconds"):
+            scene.render_progressively(seconds=-1)
         with self.assertRaisesRegex(ValueError, "no keyframes"):
-            next(gpt.Scene.from_toml(SCENE).render_frames("1", device="cpu"))
+            gpt.Scene.from_toml(SCENE).render_frames("1", device="cpu")
         with self.assertRaisesRegex(gpt.SceneError, "a frame is a finite number"):
-            list(scene.render_frames([1, float("nan")], device="cpu"))
+            scene.render_frames([1, float("nan")], device="cpu")
 
     def test_who_leaves_early_ends_it(self):
         scene = gpt.Scene.from_toml(self.MOVING)
@@ -774,11 +797,11 @@ class Files(unittest.TestCase):
         picture.save(path)
         again = gpt.Picture.open(path)
         self.assertEqual(again.pixels.tolist(), picture.pixels.tolist())
-        self.assertEqual((again.warnings, picture.warnings), ([], []))
+        self.assertEqual((again.warnings, picture.warnings, again.layers, again.stats), ([], [], {}, {}))
         wide = self.folder / "wide.hdr"
         wide.write_bytes(b"#?RADIANCE\nEXPOSURE=2\nPIXASPECT=2\n\n-Y 1 +X 1\n" + bytes([128, 64, 32, 129]))
         read = gpt.Picture.open(wide)
-        self.assertEqual((read.pixels.tolist(), len(read.warnings)), ([[[0.5, 0.25, 0.125]]], 1))
+        self.assertEqual((read.pixels.tolist(), len(read.warnings), read.layers), ([[[0.5, 0.25, 0.125]]], 1, {}))
         self.assertIn("PIXASPECT", read.warnings[0])
         for same in (again, path, picture.pixels, picture.pixels.astype(np.float64)):
             comparison = gpt.compare(same, picture)
@@ -786,6 +809,52 @@ class Files(unittest.TestCase):
         brighter = gpt.compare(picture.pixels + 0.5, picture)
         self.assertAlmostEqual(brighter.mse, 0.25, delta=1e-6)
         self.assertAlmostEqual(brighter.largest, 0.5, delta=1e-6)
+
+    def test_layers_are_read(self):
+        """Those of a file of the program and of one of our own are those of the render, and they are saved with the picture again."""
+        names = "albedo,normal,position,uv,object_position,motion,depth,alpha,variance,samples,low,high,direct,indirect,emission,ids,cryptomatte,groups"
+        scene, by_program, ours, again = (self.folder / name for name in ("two.toml", "program.exr", "ours.exr", "again.exr"))
+        scene.write_text(Regrouping.TWO)
+        picture = gpt.Scene.load(scene).render(spp=32, device="cpu", layers=names.split(","))
+        picture.save(ours)
+        arguments = [PROGRAM, "render", scene, "--spp", "32", "--device", "cpu", "-q", "--aov", names]
+        subprocess.run([*arguments, "-o", by_program], check=True)
+        subprocess.run([*arguments, "-o", self.folder / "parts.exr", "--exr", "parts,tiled"], check=True)
+        for file in (by_program, ours, self.folder / "parts.exr"):
+            read = gpt.Picture.open(file)
+            self.assertEqual(read.pixels.tobytes(), picture.pixels.tobytes())
+            self.assertEqual(list(read.layers), list(picture.layers))
+            for name, layer in picture.layers.items():
+                found = read.layers[name]
+                self.assertEqual((name, found.dtype, found.shape, found.tobytes()), (name, layer.dtype, layer.shape, layer.tobytes()))
+            self.assertEqual(read.light_groups, picture.light_groups)
+            self.assertEqual(gpt.regroup(read, {"key": 2}).pixels.tobytes(), gpt.regroup(file, {"key": 2}).pixels.tobytes())
+        read.save(again)
+        twice = gpt.Picture.open(again)
+        self.assertEqual({name: layer.tobytes() for name, layer in twice.layers.items()}, {name: layer.tobytes() for name, layer in picture.layers.items()})
+        self.assertEqual(twice.light_groups, picture.light_groups)
+        self.assertIn(b"cryptomatte/", again.read_bytes())
+        # The controls: layers differ from each other, and a preview has none.
+        self.assertNotEqual(picture.layers["Low"].tobytes(), picture.layers["High"].tobytes())
+        picture.save(self.folder / "ball.png")
+        self.assertEqual(gpt.Picture.open(self.folder / "ball.png").layers, {})
+
+    def test_layers_of_a_part_and_of_adaptive_samples(self):
+        scene, file = self.folder / "ball.toml", self.folder / "part.exr"
+        scene.write_text(SCENE)
+        subprocess.run([PROGRAM, "render", scene, "--device", "cpu", "-q", "--aov", "depth,normal", "--crop", "8,4,6,5", "-o", file], check=True)
+        part = gpt.Picture.open(file)
+        whole = gpt.Scene.load(scene).render(device="cpu", layers=["depth", "normal"])
+        for name in ("Z", "N"):
+            np.testing.assert_array_equal(part.layers[name][4:9, 8:14], whole.layers[name][4:9, 8:14])
+            self.assertEqual(part.layers[name][0].any(), False, "outside of the part there is nothing")
+        self.assertEqual((part.layers["SampleCount"][4, 8], part.layers["SampleCount.Z"].shape), (8, (16, 24)))
+        scene = gpt.Scene.from_toml(SCENE.replace("spp = 8", "spp = 64"))
+        picture = scene.render(device="cpu", adaptive=True, layers=["samples"])
+        picture.save(file)
+        counts = gpt.Picture.open(file).layers["SampleCount"]
+        self.assertEqual((counts.dtype, counts.tobytes()), (np.uint32, picture.layers["SampleCount"].tobytes()))
+        self.assertGreater(counts.max(), counts.min())
 
     def test_mistakes_are_exceptions(self):
         with self.assertRaisesRegex(gpt.SceneError, "reflectanse"):

@@ -36,6 +36,8 @@ struct Rendered {
     counts: Option<Vec<u32>>,
     /// The ends of each pixel's interval, where they were asked for.
     ends: Option<[Vec<[f32; 3]>; 2]>,
+    /// The ends of the interval of the picture's mean, where one was asked for.
+    picture_ends: Option<[[f64; 3]; 2]>,
 }
 
 impl Image {
@@ -61,7 +63,9 @@ impl Image {
         }
         let fewest_samples = if rows == height { fewest_samples } else { 0 };
         let pixels = output::Image { width, height, pixels };
-        Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples, counts, ends }), warnings: Vec::new() }
+        let picture_ends = bands.last().and_then(|band| band.picture_ends);
+        let rendered = Rendered { provenance, outcome, fewest_samples, counts, ends, picture_ends };
+        Self { pixels, rendered: Some(rendered), warnings: Vec::new() }
     }
 
     /// A picture of these pixels, row by row from the top; None where there is no pixel, or their number is not `width * height`.
@@ -163,7 +167,9 @@ impl Image {
         let mut file = PictureFile::create(path, format, &PictureSpec { width, height, provenance, ..spec })?;
         let samples = self.fewest_samples();
         let counts = self.rendered.as_ref().and_then(|rendered| rendered.counts.clone());
-        let band = Band { first_row: 0, width, rows: height, samples, counts, mean: pixels.clone(), ..Band::default() };
+        let picture_ends = self.rendered.as_ref().and_then(|rendered| rendered.picture_ends);
+        let mean = pixels.clone();
+        let band = Band { first_row: 0, width, rows: height, samples, counts, mean, picture_ends, ..Band::default() };
         file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
         file.finish()
     }

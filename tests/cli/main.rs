@@ -1,10 +1,14 @@
 //! The program as its users meet it: exit codes, messages and files.
 
+// Some tests are for Unix or Linux alone, and what they share is unused elsewhere.
+#![cfg_attr(not(target_os = "linux"), allow(dead_code, unused_imports, unused_mut))]
+
 #[path = "../common/mod.rs"]
 mod common;
 
 mod bench;
 mod checkpoints;
+#[cfg(unix)]
 mod continuous_integration;
 mod damage;
 mod denoising;

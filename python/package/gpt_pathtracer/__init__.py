@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import contextlib
 import difflib
+import inspect
 import json
 import os
 import tempfile
@@ -66,13 +67,13 @@ class Picture:
         self._native = native
         self._pixels: Optional[Pixels] = None
         #: Read-only arrays by the layers' names in EXR files: Albedo, N, P, Z, A, Variance, SampleCount, Direct, Indirect, Emission, ObjectId,
-        #: MaterialId, CryptoObject00 and so on. Numbers of samples, objects and materials are whole.
+        #: MaterialId, CryptoObject00 and so on. Numbers of samples, objects and materials are whole. Of a picture that was read, all layers of the file.
         self.layers = dict(layers)
         #: What the render did, with the names of `gpt render --stats`; empty of a picture that was read.
         self.stats = stats
         #: Names of the light groups that are among the layers.
         self.light_groups: Tuple[str, ...] = ()
-        self._channels: List[str] = []
+        self._channels: List[Tuple[str, str]] = []
         self._layer_list = ""
         self._notes: List[Tuple[str, str]] = []
 
@@ -85,8 +86,10 @@ class Picture:
 
     @staticmethod
     def open(path: Path) -> Picture:
-        """Reads an OpenEXR file, in its display window, or a PNG, JPEG, HDR and others, whose integers are taken for sRGB where they say nothing else."""
-        return Picture(_native.Picture.open(os.fspath(path)), {}, {})
+        """Reads an OpenEXR file, in its display window and with all of its layers, or a PNG, JPEG, HDR and others, whose integers are taken for sRGB where
+        they say nothing else. Layers are what they were when the picture was saved, and are saved with it again; those of other programs have the names
+        before the last point of their channels."""
+        return Picture._of(_native.open_with_layers(os.fspath(path)))
 
     @property
     def warnings(self) -> List[str]:
@@ -117,8 +120,7 @@ class Picture:
     def _numbers(self) -> Iterator[Tuple[str, Pixels, bool]]:
         """Names of the layers' channels in EXR files, their numbers, and whether these are whole."""
         places: Dict[str, int] = {}
-        for channel in self._channels:
-            layer = channel.rpartition(".")[0] or channel
+        for channel, layer in self._channels:
             array, place = self.layers[layer], places.get(layer, 0)
             places[layer] = place + 1
             numbers = array if array.ndim == 2 else array[..., place]
@@ -286,23 +288,23 @@ class Scene:
         shows a bar. `live` shows the picture while it is rendered, where a notebook runs, and a bar elsewhere. All other keywords are settings by the names of a scene's `[render]`, such as `max_depth=12, guiding="on"`: `settings()` lists
         them.
         """
-        task = self._task(
-            spp,
-            size=size,
-            seed=seed,
-            device=device,
-            layers=layers,
-            time_limit=time_limit,
-            target_error=target_error,
-            adaptive=adaptive,
-            target_interval=target_interval,
-            confidence=confidence,
-            interval_of=interval_of,
-            interval_by=interval_by,
-            first_sample=first_sample,
-            crop=crop,
+        keywords: Dict[str, Any] = {
             **settings,
-        )
+            "size": size,
+            "seed": seed,
+            "device": device,
+            "layers": layers,
+            "time_limit": time_limit,
+            "target_error": target_error,
+            "adaptive": adaptive,
+            "target_interval": target_interval,
+            "confidence": confidence,
+            "interval_of": interval_of,
+            "interval_by": interval_by,
+            "first_sample": first_sample,
+            "crop": crop,
+        }
+        task = self._task("render", spp, keywords)
         canvas = Canvas.of_notebook() if live else None
         with _watching(progress or (live and canvas is None)) as watcher:
             if canvas is None:
@@ -320,7 +322,9 @@ class Scene:
         rendered while a picture is used; leaving the loop ends that. `progress` tells of each frame anew. Keywords are those of `render`.
         """
         numbers = _native.frame_list(frames) if isinstance(frames, str) else [float(frame) for frame in frames]
-        task = self._task(spp, **keywords)
+        task = self._task("render_frames", spp, keywords)
+        task.check_frames(numbers)
+        _check_progress(progress)
 
         def pictures() -> Iterator[Picture]:
             with _watching(progress) as watcher:
@@ -336,7 +340,9 @@ class Scene:
         Those before it have no layers, and a few `stats`, among them `spp_done` of the pixel that has fewest samples; `stopped_by` is None. The render
         goes on while a picture is used; leaving the loop ends it. Keywords are those of `render`.
         """
-        task = self._task(spp, **keywords)
+        task = self._task("render_progressively", spp, keywords)
+        task.check_seconds(seconds)
+        _check_progress(progress)
 
         def pictures() -> Iterator[Picture]:
             with _watching(progress) as watcher:
@@ -344,7 +350,18 @@ class Scene:
 
         return pictures()
 
-    def _task(
+    def _task(self, function: str, spp: Optional[int], keywords: Mapping[str, Any]) -> _native.Task:
+        """The render that a function was asked for with these keywords, of which the names are checked."""
+        of_renders, own = (list(inspect.signature(asked).parameters) for asked in (Scene._with, getattr(Scene, function)))
+        known = {*of_renders, *_setting_names()} - {"self", "spp", "settings"}
+        for name in keywords:
+            if name not in known:
+                near = difflib.get_close_matches(name, {*known, *own} - {"self", "keywords", "settings"}, 1)
+                help = f"did you mean {near[0]!r}?" if near else "help(Scene.render) and settings() name what there is"
+                raise TypeError(f"{function}() has no keyword {name!r}; {help}")
+        return self._with(spp, **keywords)
+
+    def _with(
         self,
         spp: Optional[int],
         *,
@@ -363,13 +380,9 @@ class Scene:
         crop: Optional[Tuple[int, int, int, int]] = None,
         **settings: SettingValue,
     ) -> _native.Task:
-        """A render with these keywords, of which the names of settings are checked."""
+        """A render with these keywords and settings, whose values are checked."""
         names = [layers] if isinstance(layers, str) else list(layers)
         intervals = (target_interval, confidence, interval_of, interval_by)
-        for name in settings:
-            if name not in _setting_names():
-                near = difflib.get_close_matches(name, _setting_names(), 1)
-                raise TypeError(f"render() has no keyword {name!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
         named: Dict[str, Optional[SettingValue]] = {"spp": spp, "seed": seed, **settings}
         assigned = [(name, setting_text(value)) for name, value in named.items() if value is not None]
         part = (first_sample, crop)
@@ -384,11 +397,15 @@ class Scene:
 _LIVE_SECONDS = 0.5
 
 
+def _check_progress(progress: Progress) -> None:
+    if not (progress is None or isinstance(progress, bool) or callable(progress)):
+        raise TypeError("progress: a function of two numbers, or True for a bar")
+
+
 @contextlib.contextmanager
 def _watching(progress: Progress) -> Iterator[Optional[Callable[[int, int], object]]]:
     """The function that is told how far a render is; a bar is closed in the end."""
-    if not (progress is None or isinstance(progress, bool) or callable(progress)):
-        raise TypeError("progress: a function of two numbers, or True for a bar")
+    _check_progress(progress)
     if progress is not True:
         yield progress or None
         return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 import time
 from typing import Any, Optional, TextIO, TypeVar
@@ -69,6 +70,6 @@ def _notebook() -> Any:
     running = get() if get else None
     if running is None or not hasattr(running, "kernel"):
         return None
-    from IPython.display import display  # type: ignore[import-not-found,unused-ignore]
-
-    return display({"text/plain": ""}, raw=True, display_id=True)
+    # Types of IPython differ from version to version, and are missing where it is.
+    display: Any = importlib.import_module("IPython.display")
+    return display.display({"text/plain": ""}, raw=True, display_id=True)

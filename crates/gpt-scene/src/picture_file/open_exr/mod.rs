@@ -99,6 +99,16 @@ impl ExrFile {
         &self.header
     }
 
+    /// Names of the channels that its colours are made of.
+    pub fn colour_channels(&self) -> Vec<String> {
+        let places: Vec<usize> = match self.colours.mixture {
+            Mixture::Rgb(channels) => channels.into_iter().flatten().collect(),
+            Mixture::Grey(channel) => vec![channel],
+            Mixture::LuminanceChroma(channels) => channels.to_vec(),
+        };
+        places.into_iter().map(|place| self.header.channels.list[place].name.to_string()).collect()
+    }
+
     /// The parts that lie where the picture does, the picture's first, each with its place among all.
     pub fn layers(&self) -> impl Iterator<Item = (usize, &Header)> {
         let fits = |header: &Header| Windows::of(header) == self.windows;
