@@ -99,7 +99,10 @@ pub fn tests() -> Vec<Test> {
 }
 
 fn textured() -> Test {
-    let code = |x: u32, y: u32| 20 + ((x * 5 + y * 3) % 9 * 25) as u8;
+    // Thirds and fifths of 255: a third or a fifth of a number of samples is whole, or far from it. Of a share that is nearly whole, a renderer that spreads
+    // its samples evenly chooses one part equally often in almost all pixels of a tile; where the few others are missing, the tile is a little off and
+    // seems to have no noise.
+    let code = |x: u32, y: u32| [51, 170, 102, 204, 85, 153][((x * 5 + y) % 6) as usize];
     let file = png("shares.png", [4, 4], move |x, y| {
         let code = code(x, y);
         [code, code, code, 255]
