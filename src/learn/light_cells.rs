@@ -100,12 +100,13 @@ pub fn settle(scene: &Scene, budget: Budget, may_be_tried: impl Fn(f64) -> bool)
     let mut integrator = Integrator::new(&by_cells)?;
     let (count, groups) = (integrator.lights().local_count(), integrator.lights().group_count());
     let has_few = count < MANY_LIGHTS;
-    let is_in_vain = || is_open && has_few && (groups < 2 || !may_be_tried(work_of_path::of_path(&integrator)));
-    if integrator.light_strategy() != LightStrategy::Cells || is_in_vain() {
+    let no_cells = integrator.light_strategy() != LightStrategy::Cells || (is_open && has_few && groups < 2);
+    let of_path = if no_cells { 0.0 } else { work_of_path::of_path(&integrator) };
+    if no_cells || (is_open && has_few && !may_be_tried(of_path)) {
         integrator.set_light_choice(scene.render.light_choice);
         return Ok(LightsSettled { integrator: Some(integrator), ..as_it_is });
     }
-    let Some(Learned { table, unlisted }) = learned(&integrator, is_open.then_some(budget)) else {
+    let Some(Learned { table, unlisted }) = learned(&integrator, of_path, is_open.then_some(budget)) else {
         return Ok(without_cells(integrator, has_few, with));
     };
     integrator.set_light_cells(Arc::new(table));
@@ -178,11 +179,11 @@ struct Learned {
 }
 
 /// Learns from a scene whose lights are chosen by cells. None where that is to be done `within` a budget and takes too much
-/// work; where it is asked for, less is learned then, and cells that were not tried choose by power.
-fn learned(integrator: &Integrator, within: Option<Budget>) -> Option<Learned> {
+/// work, a path `of_path`; where it is asked for, less is learned then, and cells that were not tried choose by power.
+fn learned(integrator: &Integrator, of_path: f64, within: Option<Budget>) -> Option<Learned> {
     let wanted = path_count(integrator.scene(), within);
     let has_to_be_whole = within.is_some();
-    let affordable = (MOST_WORK as f64 / work_of_path::of_path(integrator).max(1.0)) as u32;
+    let affordable = (MOST_WORK as f64 / of_path.max(1.0)) as u32;
     if has_to_be_whole && affordable < wanted {
         return None;
     }
